@@ -1,0 +1,1 @@
+//! Many submissions: in parallel, gradebook, statistics. Judges nothing.

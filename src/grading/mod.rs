@@ -1,0 +1,5 @@
+//! Criterion → Evidence → Verdict → Scorecard. Knows no HTML and no clock.
+
+mod scorecard;
+
+pub use scorecard::*;

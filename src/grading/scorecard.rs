@@ -1,0 +1,95 @@
+use crate::lab::Points;
+use crate::source::{Position, Span};
+
+/// What became of one criterion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Verdict {
+    Right,
+    Partly,
+    Wrong,
+    /// Nothing was written.
+    Blank,
+    /// Something was written that cannot be read; see the finding.
+    Unreadable,
+    /// polemark cannot judge it; a person must.
+    Unmarked,
+}
+
+/// Every verdict for one submission.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scorecard {
+    pub questions: Vec<QuestionScore>,
+    pub total: Tally,
+    /// Observed rows, points given by a person; `None` until then.
+    pub observed: Vec<(String, Option<Points>)>,
+    /// Boxes of the cover sheet, (row id, possible, earned); `None` while a part waits for a person.
+    pub cover: Vec<(String, Points, Option<Points>)>,
+    /// Sum of the cover sheet, `None` while a box is empty.
+    pub cover_total: Option<Points>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Tally {
+    pub earned: Points,
+    pub possible: Points,
+    /// How many of the earned points wait for a person to confirm them.
+    pub provisional: Points,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct QuestionScore {
+    pub id: String,
+    pub tally: Tally,
+    pub items: Vec<ItemScore>,
+}
+
+/// One criterion's mark and why.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ItemScore {
+    /// The criterion's id.
+    pub id: String,
+    pub title: String,
+    pub earned: Points,
+    pub possible: Points,
+    pub verdict: Verdict,
+    /// Stable, dotted: `denominator.sign`, `poles.mirrored`, `concepts.contradicted`.
+    pub code: &'static str,
+    pub evidence: Evidence,
+    /// To be confirmed by a person.
+    pub provisional: bool,
+    /// A person changed the mark: their reason.
+    pub override_reason: Option<String>,
+    /// Where the answer stands in the file.
+    pub position: Option<Position>,
+}
+
+/// Enough to argue a mark with.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Evidence {
+    /// What would have been right, with the accepted interval where there is one.
+    pub expected: String,
+    /// What was written, as read.
+    pub found: String,
+    /// Why the mark is what it is, in one or two full sentences.
+    pub reason: String,
+    /// Words of the prose that count, for or against.
+    pub phrases: Vec<PhraseMatch>,
+}
+
+/// Words found in prose.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PhraseMatch {
+    /// Bytes of the prose text (not of the file).
+    pub span: Span,
+    /// The concept's title.
+    pub concept: String,
+    pub stance: Stance,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stance {
+    /// Says what was asked for.
+    Claims,
+    /// Says the opposite of what was asked for, or denies it.
+    Denies,
+}

@@ -1,0 +1,301 @@
+use super::Points;
+use crate::algebra::Rational;
+use crate::lti::InputKind;
+use crate::model::{Comparison, Equilibrium, Model};
+use crate::nonlinear::{Chain, Nonlinearity};
+use crate::source::{SourceText, Span};
+use crate::submission::{AnswerSheet, FieldKind, NonlinearityKind, Submission};
+
+/// A lab, checked: every name resolves, points add up, equations parse.
+#[derive(Clone, Debug)]
+pub struct LabDefinition {
+    pub id: String,
+    pub title: String,
+    pub course: String,
+    /// Where the lab comes from, one line.
+    pub source_note: String,
+    pub outcomes: Vec<Outcome>,
+    pub parameters: Vec<Parameter>,
+    pub models: Vec<ModelDefinition>,
+    pub simulations: Vec<SimulationDefinition>,
+    pub questions: Vec<Question>,
+    /// Rows a person marks while watching the lab session.
+    pub observed: Vec<ObservedRow>,
+    pub cover: Cover,
+    /// Values stated by hand or taken from an independent program; `verify` holds the computed ones against them.
+    pub expectations: Vec<Expectation>,
+    /// The model answer, assembled from the questions' `model_answer`, read like any submission.
+    pub model_answer: Submission,
+    /// What an answer file may hold; no right answers in it.
+    pub sheet: AnswerSheet,
+    pub text: SourceText,
+}
+
+/// A learning outcome: `a`, and what it says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    pub id: String,
+    pub text: String,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    pub name: String,
+    pub value: Rational,
+    /// As typed in the lab file.
+    pub text: String,
+    pub unit: String,
+    pub description: String,
+    /// Other values taken as right, exactly, each with its text as typed. A set, never a band.
+    pub accepted: Vec<(String, Rational)>,
+}
+
+#[derive(Clone, Debug)]
+pub struct ModelDefinition {
+    pub id: String,
+    pub title: String,
+    pub model: Model,
+    pub operating_points: Vec<OperatingPointDefinition>,
+}
+
+#[derive(Clone, Debug)]
+pub struct OperatingPointDefinition {
+    pub id: String,
+    pub title: String,
+    pub at: Equilibrium,
+    /// The equilibrium as typed, (name, text): `("theta", "pi")`.
+    pub at_text: Vec<(String, String)>,
+    pub input: String,
+    pub input_unit: String,
+    pub output: String,
+    pub output_unit: String,
+    pub comparison: Comparison,
+    pub span: Span,
+}
+
+/// A block chain simulated with and without its nonlinearity.
+#[derive(Clone, Debug)]
+pub struct SimulationDefinition {
+    pub id: String,
+    pub title: String,
+    pub chain: Chain,
+    pub duration_s: f64,
+    /// What the output is, and its unit: `speed`, `rad/s`.
+    pub output: String,
+    pub output_unit: String,
+    /// What drives it, and its unit: `armature voltage`, `V`.
+    pub input: String,
+    pub input_unit: String,
+    /// The nonlinearity shown in the figures (the first in the chain).
+    pub nonlinearity: Nonlinearity,
+    /// Shown in the question of this id.
+    pub shown_in: String,
+}
+
+#[derive(Clone, Debug)]
+pub struct Question {
+    /// Dotted path, the answer's key: `hanging.response`.
+    pub id: String,
+    /// As on the handout: `Task 1, question 4`.
+    pub number: String,
+    pub title: String,
+    /// Markdown.
+    pub text: String,
+    pub points: Points,
+    pub outcomes: Vec<String>,
+    pub fields: Vec<QuestionField>,
+    pub criteria: Vec<Criterion>,
+}
+
+/// A field of the answer: its full path, kind, prompt.
+#[derive(Clone, Debug, PartialEq)]
+pub struct QuestionField {
+    pub path: String,
+    pub kind: FieldKind,
+    pub prompt: String,
+}
+
+/// What earns points.
+#[derive(Clone, Debug)]
+pub struct Criterion {
+    /// Full path: `hanging.transfer_function.numerator`.
+    pub id: String,
+    /// In words, for the report: `Numerator`.
+    pub title: String,
+    pub points: Points,
+    /// The answer field that is judged.
+    pub field: String,
+    pub check: Check,
+    pub span: Span,
+}
+
+/// Which model at which operating point.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct SystemRef {
+    pub model: String,
+    pub operating_point: String,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum Check {
+    /// Orders of numerator and denominator and zeros at the origin, common factors cancelled.
+    Structure {
+        of: SystemRef,
+    },
+    /// Numerator right, given the common factor that the denominator (or most coefficients) sets.
+    Numerator {
+        of: SystemRef,
+        tolerance: Tolerance,
+    },
+    /// Denominator right; a single coefficient off in its digits but of the right sign earns `one_slip` of the points (0..=1).
+    Denominator {
+        of: SystemRef,
+        tolerance: Tolerance,
+        one_slip: Rational,
+    },
+    /// The set of poles, with multiplicity and conjugates.
+    Poles {
+        of: SystemRef,
+        tolerance: Tolerance,
+    },
+    /// The word, against the transfer function's stability.
+    Stability {
+        of: SystemRef,
+    },
+    Feature {
+        of: SystemRef,
+        response: InputKind,
+        feature: FeatureKind,
+        tolerance: Tolerance,
+    },
+    Shape {
+        of: SystemRef,
+        response: InputKind,
+    },
+    /// `field` is the figure; `data` the field of the series. Data is compared with the curve; a figure alone waits for a person.
+    Plot {
+        data: Option<String>,
+        curve: Curve,
+        tolerance: Tolerance,
+        min_points: usize,
+        span_s: f64,
+    },
+    /// Stated concepts in prose. Provisional always.
+    Concepts {
+        concepts: Vec<Concept>,
+        needed: usize,
+        contradictions: Vec<Concept>,
+    },
+    /// The class of a nonlinearity.
+    Nonlinearity {
+        expected: NonlinearityKind,
+    },
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FeatureKind {
+    InitialValue,
+    FinalValue,
+    /// Signed value of the extremum of largest magnitude.
+    Peak,
+    PeriodS,
+    DampingRatio,
+    SettlingTime2PercentS,
+    SettlingTime5PercentS,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum Curve {
+    Response {
+        of: SystemRef,
+        response: InputKind,
+    },
+    /// With the nonlinearity in place.
+    Simulation {
+        id: String,
+    },
+}
+
+/// Right within max(absolute, relative · |expected|), or when correctly rounded to at least `figures` figures.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tolerance {
+    pub absolute: Rational,
+    pub relative: Rational,
+    pub figures: Option<u32>,
+}
+
+/// Something prose may say: any of the phrases. A phrase is words in order with at most a few between;
+/// `oscillat*` matches the beginning of a word.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Concept {
+    pub id: String,
+    /// In words, for the report: `it oscillates about the bottom`.
+    pub title: String,
+    pub phrases: Vec<String>,
+}
+
+/// A row of the observation sheet.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ObservedRow {
+    pub id: String,
+    pub title: String,
+    pub outcomes: Vec<String>,
+    pub points: Points,
+    /// Best first.
+    pub levels: Vec<Level>,
+}
+
+/// `from`..=`to` points and what earns them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Level {
+    pub title: String,
+    pub from: Points,
+    pub to: Points,
+    pub text: String,
+}
+
+/// How the parts make up the total.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cover {
+    pub rows: Vec<CoverRow>,
+    pub total: Points,
+}
+
+/// A box of the cover sheet: `Lab performance`, 65.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CoverRow {
+    pub id: String,
+    pub title: String,
+    pub points: Points,
+    pub from: CoverSource,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CoverSource {
+    /// points · (earned by questions + earned by observed rows) / (possible by both), rounded to hundredths.
+    QuestionsAndObserved,
+    /// points · earned by questions / possible.
+    Questions,
+    /// points · earned by observed rows / possible.
+    Observed,
+    /// Given by a person.
+    ByHand,
+}
+
+/// `path` into the reference, and what it must be to so many digits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Expectation {
+    /// As `reference --format json` nests it: `cart.hanging.poles`, `saturation.peak_with`.
+    pub path: String,
+    pub values: Vec<ExpectedValue>,
+    /// Relative agreement demanded of each.
+    pub relative: f64,
+    pub span: Span,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum ExpectedValue {
+    Number(f64),
+    Complex(f64, f64),
+    Word(String),
+}

@@ -1,0 +1,7 @@
+//! What is asked: the lab file, checked, as a [`LabDefinition`].
+
+mod definition;
+mod points;
+
+pub use definition::*;
+pub use points::Points;

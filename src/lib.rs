@@ -1,0 +1,35 @@
+//! polemark marks control-systems lab reports from the equations up.
+//!
+//! ```text
+//!   algebra                  exact rationals, polynomials, expressions
+//!     │           source     text with places in it: spans, findings, a YAML tree
+//!   lti   nonlinear  │       transfer functions, poles, responses · saturation, dead zone, backlash
+//!     └──┬──┘        │
+//!     model          │       equations → equilibrium → linearization
+//!        │      submission   what was answered
+//!       lab ─────────┘       what is asked
+//!        │
+//!    reference               what a right answer is, curves included
+//!        │
+//!     grading                Criterion → Evidence → Verdict → Scorecard
+//!     report                 Scorecard → view → figure → svg → html
+//!     class                  many submissions: in parallel, gradebook, statistics
+//!     cli                    new · check · grade · verify · reference
+//! ```
+//!
+//! A module imports from modules above it, never from below.
+
+pub mod algebra;
+pub mod lti;
+pub mod model;
+pub mod nonlinear;
+pub mod source;
+pub mod submission;
+
+pub mod lab;
+pub mod reference;
+
+pub mod class;
+pub mod cli;
+pub mod grading;
+pub mod report;

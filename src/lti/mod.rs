@@ -1,0 +1,15 @@
+//! Linear time-invariant systems: transfer functions, state space, poles, responses.
+
+mod features;
+mod poles;
+mod response;
+mod stability;
+mod state_space;
+mod transfer_function;
+
+pub use features::{Extremum, Features, Limit, Shape};
+pub use poles::{Pole, RootError, roots};
+pub use response::{InputKind, Response, ResponseError};
+pub use stability::{Stability, stability};
+pub use state_space::StateSpace;
+pub use transfer_function::TransferFunction;

@@ -1,0 +1,11 @@
+//! Equations of motion → equilibrium → linearization, exact where the numbers are.
+
+mod compare;
+mod equations;
+mod equilibrium;
+mod linearization;
+
+pub use compare::{Comparison, ComparisonRun, compare};
+pub use equations::{Coordinate, Equation, Model, ModelError};
+pub use equilibrium::{Equilibrium, Exact};
+pub use linearization::{Linearization, linearize};

@@ -1,0 +1,81 @@
+use crate::algebra::Rational;
+use crate::lti::{Features, Pole, Response, Stability};
+use crate::model::{ComparisonRun, Linearization};
+use crate::nonlinear::Run;
+
+/// Every right answer of a lab.
+#[derive(Clone, Debug)]
+pub struct Reference {
+    pub lab: String,
+    pub models: Vec<ModelReference>,
+    pub simulations: Vec<SimulationReference>,
+}
+
+#[derive(Clone, Debug)]
+pub struct ModelReference {
+    pub id: String,
+    pub title: String,
+    pub operating_points: Vec<OperatingPointReference>,
+}
+
+#[derive(Clone, Debug)]
+pub struct OperatingPointReference {
+    pub id: String,
+    pub title: String,
+    /// (name, value), plant units.
+    pub equilibrium: Vec<(String, f64)>,
+    /// (name, as typed in the lab).
+    pub equilibrium_text: Vec<(String, String)>,
+    pub input: String,
+    pub input_unit: String,
+    pub output: String,
+    pub output_unit: String,
+    /// `[0]` follows the lab's own parameter values; the rest, accepted alternatives.
+    pub accepted: Vec<LinearReference>,
+    pub comparison: ComparisonRun,
+}
+
+impl OperatingPointReference {
+    /// What follows from the lab's own parameter values.
+    pub fn main(&self) -> &LinearReference {
+        &self.accepted[0]
+    }
+}
+
+/// Everything linear about an operating point, for one set of parameter values.
+#[derive(Clone, Debug)]
+pub struct LinearReference {
+    /// Parameters that differ from the lab's own: `[("g", "9.8", 49/5)]`; empty for the lab's own.
+    pub differs: Vec<(String, String, Rational)>,
+    pub linearization: Linearization,
+    pub poles: Vec<Pole>,
+    pub zeros: Vec<Pole>,
+    /// Of the transfer function.
+    pub stability: Stability,
+    /// Eigenvalues of the whole state.
+    pub internal_poles: Vec<Pole>,
+    pub internal_stability: Stability,
+    pub impulse: ResponseReference,
+    pub step: ResponseReference,
+}
+
+#[derive(Clone, Debug)]
+pub struct ResponseReference {
+    pub response: Response,
+    pub features: Features,
+    /// Seconds shown.
+    pub horizon_s: f64,
+    /// (t, y) for drawing.
+    pub samples: Vec<(f64, f64)>,
+}
+
+/// A chain with its nonlinearities and with them taken out.
+#[derive(Clone, Debug)]
+pub struct SimulationReference {
+    pub id: String,
+    pub title: String,
+    pub with: Run,
+    pub without: Run,
+    /// (t, without, with) on common instants.
+    pub samples: Vec<(f64, f64, f64)>,
+}

@@ -1,0 +1,1 @@
+//! Scorecard → view → figure → svg → html. Solves and awards nothing.

@@ -1,0 +1,9 @@
+//! Text with places in it: where something stands, what is wrong there, and how to show it.
+
+mod finding;
+mod source_text;
+mod yaml;
+
+pub use finding::{Finding, Severity};
+pub use source_text::{Position, SourceText, Span};
+pub use yaml::{Node, Value, YamlError, parse};

@@ -1,0 +1,11 @@
+//! What was answered: an answer file read into values and findings. Knows no lab and no right answer.
+
+mod answer;
+mod sheet;
+mod words;
+
+pub use answer::{
+    Answer, AnswerValue, Decimal, Figure, FinalValue, Series, Student, Submission, TypedComplex, Unreadable,
+};
+pub use sheet::{AnswerSheet, Field, FieldKind};
+pub use words::{NonlinearityKind, nonlinearity_word, shape_word, stability_word};

@@ -1,0 +1,52 @@
+use crate::algebra::Rational;
+use std::collections::BTreeMap;
+
+/// What kind of answer a field takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FieldKind {
+    /// Text (`-0.06s/(…)`, also in letters) or `{num: […], den: […]}`.
+    TransferFunction,
+    /// A list of complex numbers; `±` gives two.
+    Poles,
+    /// A number, with `unbounded` and its like where a limit does not exist.
+    Value,
+    /// Stable, marginally stable, unstable.
+    Stability,
+    /// General shape of a response.
+    Shape,
+    /// Saturation, dead zone, backlash, …
+    Nonlinearity,
+    /// Markdown with `$math$`.
+    Prose,
+    /// Path of a PNG or JPEG beside the answer file.
+    Figure,
+    /// Path of a CSV (t, y, …) beside the answer file, or the CSV itself as a text block.
+    Data,
+}
+
+/// One thing the answer file may hold.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    /// Dotted path in the answer file: `hanging.response.poles`.
+    pub path: String,
+    pub kind: FieldKind,
+    /// The question it belongs to.
+    pub question: String,
+    /// What is asked, one line, for the answer template.
+    pub prompt: String,
+    /// Fields with the same tag speak of the same system and can be held against each other (`cart.hanging`).
+    pub about: Option<String>,
+    /// Needed for full marks.
+    pub required: bool,
+}
+
+/// Everything an answer file may hold. It has no right answers in it, on purpose: `check` sees only this.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct AnswerSheet {
+    pub lab: String,
+    pub title: String,
+    pub fields: Vec<Field>,
+    /// Letters that may stand in formulas, with the handout's values.
+    pub symbols: BTreeMap<String, Rational>,
+}
