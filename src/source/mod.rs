@@ -2,8 +2,10 @@
 
 mod finding;
 mod source_text;
+mod text;
 mod yaml;
 
 pub use finding::{Finding, Severity};
 pub use source_text::{Position, SourceText, Span};
-pub use yaml::{Node, Value, YamlError, parse};
+pub use text::{DecodeError, MAX_TEXT_BYTES, decode, sanitize};
+pub use yaml::{Node, Value, YamlError, parse, parse_with_duplicates};
