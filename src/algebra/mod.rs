@@ -4,10 +4,14 @@ mod expression;
 mod matrix;
 mod number_text;
 mod polynomial;
+mod polynomial_text;
 mod rational;
+mod symbol_mathml;
 
 pub use expression::{Expression, ExpressionError, Function, NodeKind};
 pub use matrix::Matrix;
-pub use number_text::significant;
+pub use number_text::{number_mathml, significant};
 pub use polynomial::Polynomial;
+pub use polynomial_text::{polynomial_mathml, polynomial_text};
 pub use rational::{NumberError, Rational, from_f64, parse_decimal, to_f64};
+pub use symbol_mathml::symbol_mathml;

@@ -1,0 +1,127 @@
+/// A name as a textbook prints it: `theta` → θ, `x''` → ẍ, `omega_n` → ωₙ, `J1` → J₁.
+///
+/// MathML; anything in the name that is markup is made harmless.
+pub fn symbol_mathml(name: &str, primes: u8) -> String {
+    let (base, index) = split_index(name);
+    let letter = greek(base).map_or_else(|| escape(base), str::to_owned);
+    // A name of several letters is upright by itself; a single letter is italic.
+    let base = format!("<mi>{letter}</mi>");
+    let dots = match primes {
+        0 => None,
+        1 => Some("˙".to_owned()),
+        2 => Some("¨".to_owned()),
+        n => Some(format!("({n})")),
+    };
+    let marked = match dots {
+        None => base,
+        Some(dots) if primes > 2 => format!("<msup>{base}<mi>{dots}</mi></msup>"),
+        Some(dots) => format!("<mover accent=\"true\">{base}<mo>{dots}</mo></mover>"),
+    };
+    match index {
+        None => marked,
+        Some(index) if index.bytes().all(|b| b.is_ascii_digit()) => {
+            format!("<msub>{marked}<mn>{index}</mn></msub>")
+        }
+        Some(index) => {
+            let index = greek(index).map_or_else(|| escape(index), str::to_owned);
+            format!("<msub>{marked}<mi>{index}</mi></msub>")
+        }
+    }
+}
+
+/// `omega_n` → (`omega`, `n`); `x12` → (`x`, `12`); `x` → (`x`, nothing).
+fn split_index(name: &str) -> (&str, Option<&str>) {
+    if let Some((base, index)) = name.split_once('_')
+        && !base.is_empty()
+        && !index.is_empty()
+    {
+        return (base, Some(index));
+    }
+    let base = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    match &name[base.len()..] {
+        "" => (name, None),
+        _ if base.is_empty() => (name, None),
+        index => (base, Some(index)),
+    }
+}
+
+fn greek(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "alpha" => "α",
+        "beta" => "β",
+        "gamma" => "γ",
+        "delta" => "δ",
+        "epsilon" => "ε",
+        "zeta" => "ζ",
+        "eta" => "η",
+        "theta" => "θ",
+        "iota" => "ι",
+        "kappa" => "κ",
+        "lambda" => "λ",
+        "mu" => "μ",
+        "nu" => "ν",
+        "xi" => "ξ",
+        "pi" => "π",
+        "rho" => "ρ",
+        "sigma" => "σ",
+        "tau" => "τ",
+        "upsilon" => "υ",
+        "phi" => "φ",
+        "chi" => "χ",
+        "psi" => "ψ",
+        "omega" => "ω",
+        "Gamma" => "Γ",
+        "Delta" => "Δ",
+        "Theta" => "Θ",
+        "Lambda" => "Λ",
+        "Xi" => "Ξ",
+        "Pi" => "Π",
+        "Sigma" => "Σ",
+        "Phi" => "Φ",
+        "Psi" => "Ψ",
+        "Omega" => "Ω",
+        _ => return None,
+    })
+}
+
+fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '&' => escaped.push_str("&amp;"),
+            '"' => escaped.push_str("&quot;"),
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::symbol_mathml;
+
+    #[track_caller]
+    fn check(rows: &[(&str, u8, &str)]) {
+        for (name, primes, expected) in rows {
+            assert_eq!(symbol_mathml(name, *primes), *expected, "{name}");
+        }
+    }
+
+    #[test]
+    fn names_look_like_a_textbook() {
+        check(&[
+            ("x", 0, "<mi>x</mi>"),
+            ("x", 2, "<mover accent=\"true\"><mi>x</mi><mo>¨</mo></mover>"),
+            ("theta", 1, "<mover accent=\"true\"><mi>θ</mi><mo>˙</mo></mover>"),
+            ("omega_n", 0, "<msub><mi>ω</mi><mi>n</mi></msub>"),
+            ("J1", 0, "<msub><mi>J</mi><mn>1</mn></msub>"),
+            ("x1", 1, "<msub><mover accent=\"true\"><mi>x</mi><mo>˙</mo></mover><mn>1</mn></msub>"),
+            ("mass", 0, "<mi>mass</mi>"),
+            ("_a", 0, "<mi>_a</mi>"),
+            ("<b>", 0, "<mi>&lt;b&gt;</mi>"),
+            ("x", 3, "<msup><mi>x</mi><mi>(3)</mi></msup>"),
+        ]);
+    }
+}
