@@ -10,6 +10,6 @@ mod transfer_function;
 pub use features::{Extremum, Features, Limit, Shape};
 pub use poles::{Pole, RootError, roots};
 pub use response::{InputKind, Response, ResponseError};
-pub use stability::{Stability, stability};
+pub use stability::{Stability, right_half_plane_roots, stability};
 pub use state_space::StateSpace;
 pub use transfer_function::TransferFunction;
