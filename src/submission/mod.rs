@@ -1,11 +1,17 @@
 //! What was answered: an answer file read into values and findings. Knows no lab and no right answer.
 
 mod answer;
+mod attachments;
+mod read;
+mod self_check;
 mod sheet;
 mod words;
 
 pub use answer::{
     Answer, AnswerValue, Decimal, Figure, FinalValue, Series, Student, Submission, TypedComplex, Unreadable,
 };
+pub use attachments::{AttachmentError, Attachments, Folder, MAX_ATTACHMENT_BYTES, NoFiles};
+pub use read::read;
+pub use self_check::self_check;
 pub use sheet::{AnswerSheet, Field, FieldKind};
 pub use words::{NonlinearityKind, nonlinearity_word, shape_word, stability_word};
