@@ -13,20 +13,535 @@ pub enum NonlinearityKind {
     RateLimit,
 }
 
-/// `deadzone`, `dead-zone`, `deadband` … are the same word.
+/// `deadzone`, `dead-zone`, `deadband` … are the same word. Short sentences are read too (`the motor shows a dead zone`).
+///
+/// `None` when no class, or more than one, is named.
 pub fn nonlinearity_word(text: &str) -> Option<NonlinearityKind> {
-    let _ = text;
-    todo!()
+    // `a dead zone due to friction`: what follows is the cause.
+    let mut words = Words::new(text)?.before(&["due to", "because", "caused by", "owing to", "since"]);
+    if words.has_any(NEGATIONS) || words.has_any(HEDGES) {
+        return None;
+    }
+    // `backlash deadband` is what Simulink calls the width of a backlash.
+    let backlash = words.take(&[
+        "backlash deadband",
+        "backlash dead band",
+        "backlash dead zone",
+        "deadband backlash",
+        "backlash hysteresis",
+    ]);
+    let named = NONLINEARITIES.iter().filter(|(_, phrases)| words.has_any(phrases)).map(|(kind, _)| *kind);
+    one(named.chain(backlash.then_some(NonlinearityKind::Backlash)))
 }
 
-/// `stable`, `BIBO stable`, `asymptotically stable` …
+/// `stable`, `BIBO stable`, `asymptotically stable`, `not stable`, `the system is unstable` …
+///
+/// `None` when no class, more than one, or a denied `unstable` is named.
 pub fn stability_word(text: &str) -> Option<Stability> {
-    let _ = text;
-    todo!()
+    let mut words = Words::new(text)?;
+    if words.has_any(HEDGES) || words.has_any(&["conditionally", "marginally unstable"]) {
+        return None;
+    }
+    let denied = words.take(NOT_STABLE).then_some(Stability::Unstable);
+    if words.has_any(NEGATIONS) {
+        return None;
+    }
+    let marginal = words.take(MARGINAL).then_some(Stability::MarginallyStable);
+    let unstable = words.has_any(&["unstable", "instable", "instability"]).then_some(Stability::Unstable);
+    let stable = words.has_any(&["stable", "stability"]).then_some(Stability::AsymptoticallyStable);
+    one([denied, marginal, unstable, stable].into_iter().flatten())
 }
 
-/// `decaying oscillation`, `damped sinusoid`, `underdamped` …
+/// `decaying oscillation`, `damped sinusoid`, `underdamped`, `grows exponentially` …
+///
+/// `None` when no shape, or more than one, is named.
 pub fn shape_word(text: &str) -> Option<Shape> {
-    let _ = text;
-    todo!()
+    let mut words = Words::new(text)?;
+    if words.has_any(HEDGES) {
+        return None;
+    }
+    let no_swing = words.take(NO_SWING);
+    let no_decay = words.take(NO_DECAY);
+    let without_bound = words.take(WITHOUT_BOUND);
+    if words.has_any(NEGATIONS) {
+        return None;
+    }
+    let starts = |stems: &[&str]| words.iter().any(|w| stems.iter().any(|s| w.starts_with(s)));
+    let swing = starts(&["oscillat", "sinusoid", "swing", "ringing", "vibrat", "sine", "sinus", "cosine"]);
+    let decay = words.has_any(&["dies out", "die out", "dying"])
+        || starts(&[
+            "decay", "damped", "damping", "shrink", "diminish", "converg", "settl", "decreas", "fading",
+            "fade", "attenuat", "subsid",
+        ]);
+    let growth = without_bound
+        || starts(&[
+            "grow",
+            "increas",
+            "diverg",
+            "explod",
+            "expand",
+            "escalat",
+            "unbounded",
+            "runaway",
+            "unstable",
+        ]);
+    let steady = no_decay
+        || starts(&[
+            "sustain",
+            "constant",
+            "undamped",
+            "continuous",
+            "persist",
+            "perpetual",
+            "endless",
+            "harmonic",
+            "periodic",
+            "pure",
+            "steady",
+            "forever",
+            "flat",
+        ]);
+    if words.has_any(&["underdamped", "under damped"]) {
+        return (!growth && !steady && !no_swing).then_some(Shape::DecayingOscillation);
+    }
+    if words.has_any(&["overdamped", "over damped", "critically damped"]) {
+        return (!growth && !steady && !swing).then_some(Shape::ExponentialDecay);
+    }
+    if swing {
+        return match (decay, growth, steady) {
+            _ if no_swing => None,
+            (true, false, false) => Some(Shape::DecayingOscillation),
+            (false, true, false) => Some(Shape::GrowingOscillation),
+            (false, false, true) => Some(Shape::SustainedOscillation),
+            _ => None,
+        };
+    }
+    let exponential = starts(&["exponential", "monoton", "aperiodic"]);
+    let polynomial = starts(&["linear", "ramp", "parabol", "quadratic", "polynomial", "cubic"])
+        || words.has_any(&["straight line"]);
+    match (decay, growth, steady) {
+        (true, false, false) if polynomial => None,
+        (true, false, false) => (exponential || no_swing).then_some(Shape::ExponentialDecay),
+        (false, true, false) if polynomial => (!exponential).then_some(Shape::PolynomialGrowth),
+        (false, true, false) => (exponential || without_bound || starts(&["diverg", "runaway", "unbounded"]))
+            .then_some(Shape::ExponentialGrowth),
+        (false, false, false) if polynomial && !exponential => Some(Shape::PolynomialGrowth),
+        (false, false, true) if words.has_any(&["undamped"]) => Some(Shape::SustainedOscillation),
+        (false, false, true) if !no_decay && !exponential && !polynomial => Some(Shape::Constant),
+        _ => None,
+    }
+}
+
+/// `asymptotically stable`, `marginally stable`, `unstable`.
+pub fn stability_name(stability: Stability) -> &'static str {
+    match stability {
+        Stability::AsymptoticallyStable => "asymptotically stable",
+        Stability::MarginallyStable => "marginally stable",
+        Stability::Unstable => "unstable",
+    }
+}
+
+/// `decaying oscillation` …
+pub fn shape_name(shape: Shape) -> &'static str {
+    match shape {
+        Shape::DecayingOscillation => "decaying oscillation",
+        Shape::SustainedOscillation => "sustained oscillation",
+        Shape::GrowingOscillation => "growing oscillation",
+        Shape::ExponentialDecay => "exponential decay",
+        Shape::ExponentialGrowth => "exponential growth",
+        Shape::PolynomialGrowth => "polynomial growth",
+        Shape::Constant => "constant",
+    }
+}
+
+/// `dead zone` …
+pub fn nonlinearity_name(kind: NonlinearityKind) -> &'static str {
+    match kind {
+        NonlinearityKind::Saturation => "saturation",
+        NonlinearityKind::DeadZone => "dead zone",
+        NonlinearityKind::Backlash => "backlash",
+        NonlinearityKind::Relay => "relay",
+        NonlinearityKind::CoulombFriction => "Coulomb friction",
+        NonlinearityKind::Hysteresis => "hysteresis",
+        NonlinearityKind::Quantization => "quantization",
+        NonlinearityKind::RateLimit => "rate limit",
+    }
+}
+
+/// The words a message offers, in the order they are taught.
+pub(super) const STABILITY_WORDS: &[&str] = &["stable", "marginally stable", "unstable"];
+pub(super) const SHAPE_WORDS: &[&str] = &[
+    "decaying oscillation",
+    "sustained oscillation",
+    "growing oscillation",
+    "exponential decay",
+    "exponential growth",
+    "polynomial growth",
+    "constant",
+];
+pub(super) const NONLINEARITY_WORDS: &[&str] = &[
+    "saturation",
+    "dead zone",
+    "backlash",
+    "relay",
+    "Coulomb friction",
+    "hysteresis",
+    "quantization",
+    "rate limit",
+];
+
+/// The candidate that `text` was likely meant to be: at most a third of its letters differ.
+pub(super) fn closest<'a>(text: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    if text.len() > 100 {
+        return None;
+    }
+    let text = text.to_lowercase();
+    candidates
+        .into_iter()
+        .map(|c| {
+            let lower = c.to_lowercase();
+            let distance = strsim::damerau_levenshtein(&text, &lower);
+            (distance, -strsim::jaro_winkler(&text, &lower), c)
+        })
+        .filter(|(distance, _, c)| *distance * 3 <= c.chars().count().max(text.chars().count()))
+        .min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)))
+        .map(|(_, _, c)| c)
+}
+
+const NEGATIONS: &[&str] = &["not", "never", "no", "non", "neither", "nor", "without"];
+const HEDGES: &[&str] = &["or", "if", "unless", "maybe", "perhaps", "but", "either", "depends", "until"];
+const NOT_STABLE: &[&str] = &["not stable", "not bibo stable", "non stable", "nonstable", "never stable"];
+const MARGINAL: &[&str] = &[
+    "marginally stable",
+    "marginal stable",
+    "marginal stability",
+    "marginally stability",
+    "critically stable",
+    "critical stability",
+    "neutrally stable",
+    "neutral stability",
+    "borderline stable",
+    "lyapunov stable",
+    "stable in the sense of lyapunov",
+    "limit of stability",
+    "verge of stability",
+    "marginal",
+    "marginally",
+];
+const NO_SWING: &[&str] = &[
+    "without any oscillations",
+    "without any oscillation",
+    "without oscillations",
+    "without oscillation",
+    "without oscillating",
+    "without swinging",
+    "without overshoot",
+    "no oscillations",
+    "no oscillation",
+    "does not oscillate",
+    "not oscillate",
+    "not oscillating",
+    "not oscillatory",
+    "non oscillating",
+    "non oscillatory",
+    "nonoscillatory",
+];
+const NO_DECAY: &[&str] = &[
+    "without any damping",
+    "without damping",
+    "without decay",
+    "without decaying",
+    "no damping",
+    "no decay",
+    "non decaying",
+    "not decaying",
+    "not decay",
+    "not damped",
+    "never decays",
+    "never dies out",
+    "not die out",
+    "constant amplitude",
+    "fixed amplitude",
+];
+const WITHOUT_BOUND: &[&str] = &[
+    "without bound",
+    "without bounds",
+    "without limit",
+    "not bounded",
+    "never stops growing",
+    "to infinity",
+];
+
+const NONLINEARITIES: &[(NonlinearityKind, &[&str])] = &[
+    (
+        NonlinearityKind::Saturation,
+        &[
+            "saturation",
+            "saturated",
+            "saturating",
+            "saturates",
+            "saturate",
+            "clipping",
+            "clipped",
+            "amplitude limiter",
+        ],
+    ),
+    (
+        NonlinearityKind::DeadZone,
+        &["dead zone", "deadzone", "dead zones", "dead band", "deadband", "dead space", "deadspace"],
+    ),
+    (
+        NonlinearityKind::Backlash,
+        &["backlash", "back lash", "gear play", "play", "lost motion", "slack", "gear slop"],
+    ),
+    (NonlinearityKind::Relay, &["relay", "on off", "bang bang", "two position"]),
+    (
+        NonlinearityKind::CoulombFriction,
+        &["coulomb friction", "coulomb", "dry friction", "stiction", "static friction", "friction"],
+    ),
+    (NonlinearityKind::Hysteresis, &["hysteresis", "hysteretic"]),
+    (
+        NonlinearityKind::Quantization,
+        &["quantization", "quantisation", "quantizer", "quantiser", "quantized", "quantised", "quantizing"],
+    ),
+    (
+        NonlinearityKind::RateLimit,
+        &["rate limit", "rate limiter", "rate limiting", "rate limited", "slew rate"],
+    ),
+];
+
+/// Lower-case words with single spaces between and around them.
+struct Words(String);
+
+/// A sentence longer than this is prose, not a word.
+const MAX_WORDS: usize = 20;
+
+impl Words {
+    fn new(text: &str) -> Option<Self> {
+        if text.len() > 400 {
+            return None;
+        }
+        let lower =
+            text.to_lowercase().replace("n't", " not").replace("n’t", " not").replace("cannot", "can not");
+        let words: Vec<&str> =
+            lower.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).collect();
+        (!words.is_empty() && words.len() <= MAX_WORDS).then(|| Self(format!(" {} ", words.join(" "))))
+    }
+
+    fn iter(&self) -> impl Iterator<Item = &str> {
+        self.0.split(' ').filter(|w| !w.is_empty())
+    }
+
+    fn find(&self, phrase: &str) -> Option<usize> {
+        self.0.find(&format!(" {phrase} "))
+    }
+
+    fn has_any(&self, phrases: &[&str]) -> bool {
+        phrases.iter().any(|phrase| self.find(phrase).is_some())
+    }
+
+    /// Takes the phrases out; true if one was there.
+    fn take(&mut self, phrases: &[&str]) -> bool {
+        let mut found = false;
+        for phrase in phrases {
+            while let Some(at) = self.find(phrase) {
+                self.0.replace_range(at..at + phrase.len() + 1, "");
+                found = true;
+            }
+        }
+        found
+    }
+
+    /// The words before the first of the phrases.
+    fn before(mut self, phrases: &[&str]) -> Self {
+        if let Some(at) = phrases.iter().filter_map(|phrase| self.find(phrase)).min() {
+            self.0.truncate(at + 1);
+        }
+        self
+    }
+}
+
+/// The only kind named, if there is exactly one.
+fn one<T: PartialEq>(mut named: impl Iterator<Item = T>) -> Option<T> {
+    let first = named.next()?;
+    named.all(|next| next == first).then_some(first)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check<T: PartialEq + std::fmt::Debug>(read: impl Fn(&str) -> T, rows: &[(&str, T)]) {
+        for (text, expected) in rows {
+            assert_eq!(&read(text), expected, "{text:?}");
+        }
+    }
+
+    #[test]
+    fn stability_words() {
+        use Stability::*;
+        check(
+            stability_word,
+            &[
+                ("stable", Some(AsymptoticallyStable)),
+                ("Stable.", Some(AsymptoticallyStable)),
+                ("BIBO stable", Some(AsymptoticallyStable)),
+                ("BIBO-stable", Some(AsymptoticallyStable)),
+                ("asymptotically stable", Some(AsymptoticallyStable)),
+                ("exponentially stable", Some(AsymptoticallyStable)),
+                ("The system is stable", Some(AsymptoticallyStable)),
+                ("it's a stable system", Some(AsymptoticallyStable)),
+                ("marginally stable", Some(MarginallyStable)),
+                ("Marginally-stable", Some(MarginallyStable)),
+                ("critically stable", Some(MarginallyStable)),
+                ("neutrally stable", Some(MarginallyStable)),
+                ("marginal", Some(MarginallyStable)),
+                ("unstable", Some(Unstable)),
+                ("UNSTABLE!", Some(Unstable)),
+                ("not stable", Some(Unstable)),
+                ("the system isn't stable", Some(Unstable)),
+                ("the system isn’t stable", Some(Unstable)),
+                ("non-stable", Some(Unstable)),
+                ("the pendulum-cart system is unstable", Some(Unstable)),
+                ("BIBO unstable", Some(Unstable)),
+                ("not unstable", None),
+                ("not marginally stable", None),
+                ("not asymptotically stable", None),
+                ("conditionally stable", None),
+                ("marginally unstable", None),
+                ("stable or unstable", None),
+                ("stable | marginally stable | unstable", None),
+                ("stable if the gain is small", None),
+                ("first stable, then unstable", None),
+                ("stabel", None),
+                ("yes", None),
+                ("no", None),
+                ("", None),
+                ("±∞ …", None),
+            ],
+        );
+    }
+
+    #[test]
+    fn nonlinearity_words() {
+        use NonlinearityKind::*;
+        check(
+            nonlinearity_word,
+            &[
+                ("saturation", Some(Saturation)),
+                ("Amplifier saturation", Some(Saturation)),
+                ("the speaker is saturated", Some(Saturation)),
+                ("clipping", Some(Saturation)),
+                ("dead zone", Some(DeadZone)),
+                ("dead-zone", Some(DeadZone)),
+                ("Deadzone", Some(DeadZone)),
+                ("deadband", Some(DeadZone)),
+                ("dead band", Some(DeadZone)),
+                ("dead-zone nonlinearity", Some(DeadZone)),
+                ("the motor exhibits a dead zone", Some(DeadZone)),
+                ("dead zone due to friction", Some(DeadZone)),
+                ("backlash", Some(Backlash)),
+                ("Back-lash", Some(Backlash)),
+                ("backlash deadband", Some(Backlash)),
+                ("gear play", Some(Backlash)),
+                ("backlash in the gears", Some(Backlash)),
+                ("relay", Some(Relay)),
+                ("on/off", Some(Relay)),
+                ("bang-bang", Some(Relay)),
+                ("Coulomb friction", Some(CoulombFriction)),
+                ("stiction", Some(CoulombFriction)),
+                ("hysteresis", Some(Hysteresis)),
+                ("quantisation", Some(Quantization)),
+                ("quantization", Some(Quantization)),
+                ("rate limiter", Some(RateLimit)),
+                ("slew-rate limit", Some(RateLimit)),
+                ("saturation or dead zone", None),
+                ("dead zone and saturation", None),
+                ("not a dead zone", None),
+                ("no backlash", None),
+                ("displayed", None),
+                ("linear", None),
+                ("", None),
+            ],
+        );
+    }
+
+    #[test]
+    fn shape_words() {
+        use Shape::*;
+        check(
+            shape_word,
+            &[
+                ("decaying oscillation", Some(DecayingOscillation)),
+                ("Decaying oscillations", Some(DecayingOscillation)),
+                ("a damped sinusoid", Some(DecayingOscillation)),
+                ("damped sine wave", Some(DecayingOscillation)),
+                ("underdamped", Some(DecayingOscillation)),
+                ("under-damped response", Some(DecayingOscillation)),
+                ("oscillates and dies out", Some(DecayingOscillation)),
+                ("exponentially decaying sinusoid", Some(DecayingOscillation)),
+                ("it oscillates with decreasing amplitude", Some(DecayingOscillation)),
+                ("sustained oscillation", Some(SustainedOscillation)),
+                ("undamped", Some(SustainedOscillation)),
+                ("undamped oscillation", Some(SustainedOscillation)),
+                ("oscillation of constant amplitude", Some(SustainedOscillation)),
+                ("non-decaying oscillation", Some(SustainedOscillation)),
+                ("growing oscillation", Some(GrowingOscillation)),
+                ("oscillates with increasing amplitude", Some(GrowingOscillation)),
+                ("diverging oscillations", Some(GrowingOscillation)),
+                ("exponential decay", Some(ExponentialDecay)),
+                ("decays exponentially", Some(ExponentialDecay)),
+                ("overdamped", Some(ExponentialDecay)),
+                ("critically damped", Some(ExponentialDecay)),
+                ("decays without oscillation", Some(ExponentialDecay)),
+                ("monotonic decay", Some(ExponentialDecay)),
+                ("exponential growth", Some(ExponentialGrowth)),
+                ("growing exponential", Some(ExponentialGrowth)),
+                ("increases exponentially", Some(ExponentialGrowth)),
+                ("grows without bound", Some(ExponentialGrowth)),
+                ("diverges", Some(ExponentialGrowth)),
+                ("ramp", Some(PolynomialGrowth)),
+                ("linear growth", Some(PolynomialGrowth)),
+                ("grows linearly", Some(PolynomialGrowth)),
+                ("constant", Some(Constant)),
+                ("flat", Some(Constant)),
+                ("exponential", None),
+                ("oscillation", None),
+                ("decaying", None),
+                ("decaying or growing oscillation", None),
+                ("growing and decaying oscillation", None),
+                ("not a decaying oscillation", None),
+                ("underdamped, growing", None),
+                ("round", None),
+                ("", None),
+            ],
+        );
+    }
+
+    #[test]
+    fn every_name_is_read_as_itself() {
+        for word in STABILITY_WORDS {
+            assert!(stability_word(word).is_some(), "{word}");
+        }
+        for word in SHAPE_WORDS {
+            assert_eq!(shape_word(word).map(shape_name), Some(*word));
+        }
+        for word in NONLINEARITY_WORDS {
+            assert_eq!(nonlinearity_word(word).map(nonlinearity_name), Some(*word));
+        }
+        assert_eq!(
+            stability_word("asymptotically stable").map(stability_name),
+            Some("asymptotically stable")
+        );
+    }
+
+    #[test]
+    fn near_misses_are_recognised() {
+        let of = |text| closest(text, STABILITY_WORDS.iter().copied());
+        assert_eq!(of("stabel"), Some("stable"));
+        assert_eq!(of("Unstabel"), Some("unstable"));
+        assert_eq!(of("banana"), None);
+        assert_eq!(of(""), None);
+    }
 }
