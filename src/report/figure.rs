@@ -85,7 +85,9 @@ pub enum MarkerShape {
 /// Why a figure cannot be drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FigureError {
-    #[error("the {axis} axis of `{title}` goes from {from} to {to}: both must be finite and the first the smaller")]
+    #[error(
+        "the {axis} axis of `{title}` goes from {from} to {to}: both must be finite and the first the smaller"
+    )]
     Range { title: String, axis: &'static str, from: f64, to: f64 },
     #[error("`{series}` in `{title}` has a value that is not a number at point {index}")]
     NotFinite { title: String, series: String, index: usize },

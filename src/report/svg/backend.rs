@@ -1,5 +1,6 @@
 use super::simplify::simplify;
 use super::text_width::text_width;
+use crate::report::escape::escape;
 use plotters_backend::text_anchor::{HPos, VPos};
 use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,
@@ -92,8 +93,7 @@ impl<'a> Paper<'a> {
             }
             // A minus sign separates two numbers as well as a space does.
             let number = |path: &mut String, v: i32, after_number: bool| {
-                let _ =
-                    if after_number && v >= 0 { write!(path, " {v}") } else { write!(path, "{v}") };
+                let _ = if after_number && v >= 0 { write!(path, " {v}") } else { write!(path, "{v}") };
             };
             match wanted {
                 'h' => number(path, dx, wanted == command),
@@ -140,25 +140,45 @@ impl DrawingBackend for Paper<'_> {
         Ok(())
     }
 
-    fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(&mut self, path: I, style: &S) -> Drawn {
+    fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
+        &mut self,
+        path: I,
+        style: &S,
+    ) -> Drawn {
         let points: Vec<_> = path.into_iter().collect();
         self.polyline(Class::of(style.color()), &points, false);
         Ok(())
     }
 
-    fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(&mut self, path: I, style: &S) -> Drawn {
+    fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
+        &mut self,
+        path: I,
+        style: &S,
+    ) -> Drawn {
         let points: Vec<_> = path.into_iter().collect();
         self.polyline(Class::of(style.color()), &points, true);
         Ok(())
     }
 
-    fn draw_rect<S: BackendStyle>(&mut self, from: BackendCoord, to: BackendCoord, style: &S, _: bool) -> Drawn {
+    fn draw_rect<S: BackendStyle>(
+        &mut self,
+        from: BackendCoord,
+        to: BackendCoord,
+        style: &S,
+        _: bool,
+    ) -> Drawn {
         let corners = [from, (to.0, from.1), to, (from.0, to.1)];
         self.polyline(Class::of(style.color()), &corners, true);
         Ok(())
     }
 
-    fn draw_circle<S: BackendStyle>(&mut self, centre: BackendCoord, radius: u32, style: &S, _: bool) -> Drawn {
+    fn draw_circle<S: BackendStyle>(
+        &mut self,
+        centre: BackendCoord,
+        radius: u32,
+        style: &S,
+        _: bool,
+    ) -> Drawn {
         let path = self.run_of(Class::of(style.color()));
         let d = 2 * radius;
         let _ = write!(
@@ -200,21 +220,6 @@ impl DrawingBackend for Paper<'_> {
     }
 }
 
-/// `text` as XML character data: markup escaped, control characters dropped.
-pub fn escape(out: &mut String, text: &str) {
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\'' => out.push_str("&#39;"),
-            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => {}
-            c => out.push(c),
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -232,12 +237,5 @@ mod tests {
             out,
             r#"<path class="grid" d="M0 0h100M0 50h100"/><path class="s0" d="M0 0l50 80 50-60"/>"#
         );
-    }
-
-    #[test]
-    fn text_is_escaped() {
-        let mut out = String::new();
-        escape(&mut out, "</text><script>a&b\u{1b}[31m\"'");
-        assert_eq!(out, "&lt;/text&gt;&lt;script&gt;a&amp;b[31m&quot;&#39;");
     }
 }

@@ -1,9 +1,10 @@
-use super::backend::{Class, Paper, escape};
+use super::backend::{Class, Paper};
 use super::clip::clip;
 use super::text_width::text_width;
+use crate::report::escape::escape;
 use crate::report::figure::{Figure, FigureError, Look, MarkerShape};
 use crate::report::numbers::number;
-use plotters::coord::ranged1d::{KeyPointHint, Ranged};
+use plotters::coord::ranged1d::{BoldPoints, Ranged};
 use plotters::coord::types::RangedCoordf64;
 use plotters::element::{Circle, PathElement};
 use plotters::prelude::*;
@@ -41,10 +42,8 @@ pub fn render(figure: &Figure, id: &str) -> Result<String, FigureError> {
     escape(&mut svg, &figure.summary);
     svg.push_str("</desc>");
     let paper = Paper::new(&mut svg, (WIDTH as u32, height as u32));
-    draw(paper, figure, &titles, &legend, top).map_err(|e| FigureError::Drawing {
-        title: figure.title.clone(),
-        reason: e.to_string(),
-    })?;
+    draw(paper, figure, &titles, &legend, top)
+        .map_err(|e| FigureError::Drawing { title: figure.title.clone(), reason: e.to_string() })?;
     svg.push_str("</svg>");
     Ok(svg)
 }
@@ -127,7 +126,11 @@ fn draw(paper: Paper, figure: &Figure, titles: &[String], legend: &[LegendEntry]
             if !words.is_empty() {
                 let room = at.0 + 110 + (text_width(words) * f64::from(TEXT_SIZE)) as i32;
                 let (dx, side) = if room < WIDTH { (110, HPos::Left) } else { (-110, HPos::Right) };
-                root.draw_text(words, &text(Class::LABEL, TEXT_SIZE, side, VPos::Center), (at.0 + dx, at.1 - 90))?;
+                root.draw_text(
+                    words,
+                    &text(Class::LABEL, TEXT_SIZE, side, VPos::Center),
+                    (at.0 + dx, at.1 - 90),
+                )?;
             }
         }
     }
@@ -229,26 +232,74 @@ fn tick_label(value: f64, width: f64) -> String {
 fn y_label_width(figure: &Figure) -> i32 {
     let range = RangedCoordf64::from(figure.y.from..figure.y.to);
     let widest = range
-        .key_points(Bold(TICKS))
+        .key_points(BoldPoints(TICKS))
         .iter()
         .map(|v| text_width(&tick_label(*v, figure.y.to - figure.y.from)))
         .fold(1.0, f64::max);
     (widest * f64::from(TEXT_SIZE)).ceil() as i32
 }
 
-/// As the mesh asks for its labelled lines.
-struct Bold(usize);
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::figure::{Axis, Markers, Series};
 
-impl KeyPointHint for Bold {
-    fn max_num_points(&self) -> usize {
-        self.0
+    fn sine() -> Figure {
+        let mut figure = Figure::new(
+            "A sine & its <friends>",
+            Axis::new("time", "s", 0.0, 10.0),
+            Axis::new("θ", "rad", -1.2, 1.2),
+        );
+        let points = (0..=500).map(|i| f64::from(i) / 50.0).map(|t| (t, t.sin())).collect();
+        figure.series.push(Series { name: "reference".into(), look: Look::Reference, points });
+        figure.series.push(Series {
+            name: "yours".into(),
+            look: Look::Student,
+            points: vec![(0.0, 0.0), (10.0, 400.0)],
+        });
+        figure.markers.push(Markers {
+            name: "pole".into(),
+            look: Look::Reference,
+            shape: MarkerShape::Cross,
+            points: vec![(5.0, 0.0, "double".into()), (50.0, 0.0, "far".into())],
+        });
+        figure.zero_lines = true;
+        figure.summary = "A sine of amplitude 1.".into();
+        figure
     }
 
-    fn weight(&self) -> plotters::coord::ranged1d::KeyPointWeight {
-        plotters::coord::ranged1d::KeyPointWeight::Bold
+    #[test]
+    fn the_picture_is_lean_and_carries_no_look_of_its_own() {
+        let svg = render(&sine(), "f1").unwrap();
+        assert!(svg.len() < 4000, "{} bytes: {svg}", svg.len());
+        for word in ["#", "rgb", "style=", "font-", "NaN", "inf", "-0.0"] {
+            assert!(!svg.contains(word), "{word} in {svg}");
+        }
+        for word in
+            ["id=\"f1-t\"", "id=\"f1-d\"", "θ (rad)", "time (s)", "&amp; its &lt;friends&gt;", "double"]
+        {
+            assert!(svg.contains(word), "no {word} in {svg}");
+        }
+        assert!(!svg.contains(">far<"), "a marker outside the axes is not drawn");
+        assert_eq!(svg, render(&sine(), "f1").unwrap(), "same figure, same bytes");
     }
 
-    fn bold_points(&self) -> usize {
-        self.0
+    #[test]
+    fn infinite_ranges_never_reach_plotters() {
+        let mut figure = sine();
+        figure.y.to = f64::INFINITY;
+        assert!(matches!(render(&figure, "f"), Err(FigureError::Range { .. })));
+    }
+
+    #[test]
+    fn long_titles_and_legends_are_wrapped() {
+        let mut figure = sine();
+        figure.title = "words of a title ".repeat(6);
+        for name in ["a rather long name for a curve", "another long name for a curve"] {
+            figure.series.push(Series { name: name.into(), look: Look::Other, points: vec![] });
+        }
+        assert_eq!(wrap(&figure.title, TITLE_SIZE, WIDTH).len(), 2);
+        assert!(legend(&figure).iter().any(|l| l.row == 1));
+        assert!(legend(&figure).iter().all(|l| l.x < WIDTH / 2 + 400));
     }
 }

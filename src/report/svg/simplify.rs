@@ -71,7 +71,8 @@ mod tests {
 
     #[test]
     fn the_curve_stays_within_the_tolerance() {
-        let curve: Vec<_> = (0..300).map(|i| (i * 10, (800.0 * (f64::from(i) / 20.0).sin()) as i32)).collect();
+        let curve: Vec<_> =
+            (0..300).map(|i| (i * 10, (800.0 * (f64::from(i) / 20.0).sin()) as i32)).collect();
         let simple = simplify(&curve, 1.5);
         assert!(simple.len() < curve.len() / 2, "{} points", simple.len());
         for &p in &curve {

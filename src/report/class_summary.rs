@@ -1,0 +1,60 @@
+use crate::lab::Points;
+use crate::submission::Student;
+
+/// What the class page shows; filled by whoever ran the class.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct ClassSummary {
+    /// One a submission, in the order shown.
+    pub rows: Vec<ClassRow>,
+    /// One a question, in the lab's order.
+    pub questions: Vec<QuestionMean>,
+    /// Marks that wait for a person, in the order they are best looked at.
+    pub review: Vec<ReviewEntry>,
+}
+
+/// One submission.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClassRow {
+    /// Empty when the file does not say.
+    pub students: Vec<Student>,
+    /// The answer file's name, as found.
+    pub file: String,
+    /// Relative, percent-encoded: `reports/a%20b.html`.
+    pub report: String,
+    pub earned: Points,
+    pub possible: Points,
+    /// Of the earned points, how many wait for a person.
+    pub provisional: Points,
+    pub findings: usize,
+    /// Sum of the cover sheet; `None` while a box is empty.
+    pub cover_total: Option<Points>,
+    /// False when the file as a whole could not be read.
+    pub readable: bool,
+}
+
+/// How the class did in one question.
+#[derive(Clone, Debug, PartialEq)]
+pub struct QuestionMean {
+    /// The question's id.
+    pub id: String,
+    /// Mean points earned, over all submissions.
+    pub mean: f64,
+    pub possible: Points,
+}
+
+/// A mark that waits for a person.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReviewEntry {
+    /// Names or ids of the students, as shown.
+    pub student: String,
+    /// The criterion's id.
+    pub item: String,
+    /// The criterion's title.
+    pub title: String,
+    /// The report with the criterion's anchor, relative and percent-encoded; see [`item_anchor`](super::item_anchor).
+    pub link: String,
+    /// In words: `prose is judged by its words only`.
+    pub why: String,
+    pub earned: Points,
+    pub possible: Points,
+}

@@ -1,0 +1,376 @@
+//! Markdown as students write it → HTML that is safe to stand in a page.
+//!
+//! Two walls: raw HTML, odd links and pictures are taken out of the Markdown events, and what is written from them is cleaned
+//! against a list of allowed elements. Footnotes are not read, since their anchors would be the student's own ids.
+
+use super::escape::escape;
+use crate::grading::{PhraseMatch, Stance};
+use ammonia::{Builder, UrlRelative};
+use pulldown_cmark::{Event, LinkType, Options, Parser, Tag, TagEnd};
+use pulldown_latex::config::{DisplayMode, RenderConfig};
+use std::collections::{HashMap, HashSet};
+use std::sync::LazyLock;
+
+const LONGEST_TEXT: usize = 20_000;
+const DEEPEST: usize = 32;
+const MOST_EVENTS: usize = 6_000;
+const LONGEST_FORMULA: usize = 2_000;
+const MOST_BRACES: usize = 50;
+
+/// `markdown` as safe HTML. What is too long is cut, what nests too deep is shown as it was typed.
+pub fn to_html(markdown: &str) -> String {
+    let (text, left_out) = cut(markdown);
+    let mut html = match events(text) {
+        Some(events) => {
+            let mut out = String::with_capacity(2 * text.len());
+            pulldown_cmark::html::push_html(&mut out, events.into_iter());
+            CLEANER.clean(&out).to_string()
+        }
+        None => as_typed(text),
+    };
+    if left_out > 0 {
+        html.push_str(&format!("<p>… {left_out} more bytes are not shown.</p>"));
+    }
+    html
+}
+
+/// Text as it was typed, line breaks kept.
+pub fn as_typed(text: &str) -> String {
+    let mut out = String::from("<pre class=\"typed\">");
+    escape(&mut out, text);
+    out.push_str("</pre>");
+    out
+}
+
+/// Words of the prose that counted, with a little of what stands around them.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Quote {
+    pub before: String,
+    pub words: String,
+    pub after: String,
+    /// The concept they were taken for.
+    pub concept: String,
+    /// They deny what was asked for.
+    pub against: bool,
+}
+
+/// The matches as quotations, at most eight.
+pub fn quotes(prose: &str, phrases: &[PhraseMatch]) -> Vec<Quote> {
+    const CONTEXT: usize = 48;
+    phrases
+        .iter()
+        .filter_map(|p| {
+            let words = prose.get(p.span.start..p.span.end).filter(|w| !w.is_empty())?;
+            let before = &prose[..p.span.start];
+            let after = &prose[p.span.end..];
+            let from = floor(before, before.len().saturating_sub(CONTEXT));
+            let to = floor(after, CONTEXT.min(after.len()));
+            let one_line = |t: &str| t.replace(|c: char| c.is_control(), " ");
+            let lead = if from > 0 { "…" } else { "" };
+            let trail = if to < after.len() { "…" } else { "" };
+            Some(Quote {
+                before: format!("{lead}{}", one_line(&before[from..])),
+                words: one_line(words),
+                after: format!("{}{trail}", one_line(&after[..to])),
+                concept: p.concept.clone(),
+                against: p.stance == Stance::Denies,
+            })
+        })
+        .take(8)
+        .collect()
+}
+
+/// The start of `text` that is shown, and how many bytes are not.
+fn cut(text: &str) -> (&str, usize) {
+    let end = floor(text, LONGEST_TEXT.min(text.len()));
+    (&text[..end], text.len() - end)
+}
+
+/// The last character boundary at or before `index`.
+fn floor(text: &str, mut index: usize) -> usize {
+    while !text.is_char_boundary(index) {
+        index -= 1;
+    }
+    index
+}
+
+/// Harmless events; `None` when there are too many or they nest too deep.
+fn events(text: &str) -> Option<Vec<Event<'_>>> {
+    let options = Options::ENABLE_TABLES | Options::ENABLE_MATH | Options::ENABLE_STRIKETHROUGH;
+    let mut out = Vec::new();
+    let mut depth = 0;
+    // For each open link, whether it is kept.
+    let mut links = Vec::new();
+    for event in Parser::new_ext(text, options) {
+        match &event {
+            Event::Start(_) => depth += 1,
+            Event::End(_) => depth -= 1,
+            _ => {}
+        }
+        if depth > DEEPEST || out.len() > MOST_EVENTS {
+            return None;
+        }
+        let harmless = match event {
+            Event::Html(html) | Event::InlineHtml(html) => Event::Text(html),
+            Event::Start(Tag::HtmlBlock) => Event::Start(Tag::Paragraph),
+            Event::End(TagEnd::HtmlBlock) => Event::End(TagEnd::Paragraph),
+            // The page has its own headings.
+            Event::Start(Tag::Heading { .. }) => {
+                out.push(Event::Start(Tag::Paragraph));
+                Event::Start(Tag::Strong)
+            }
+            Event::End(TagEnd::Heading(_)) => {
+                out.push(Event::End(TagEnd::Strong));
+                Event::End(TagEnd::Paragraph)
+            }
+            Event::Start(Tag::Link { link_type, dest_url, .. }) => {
+                let kept = matches!(link_type, LinkType::Email) || is_harmless(&dest_url);
+                links.push(kept);
+                if !kept {
+                    continue;
+                }
+                let (title, id) = ("".into(), "".into());
+                Event::Start(Tag::Link { link_type, dest_url, title, id })
+            }
+            Event::End(TagEnd::Link) => {
+                if links.pop() != Some(true) {
+                    continue;
+                }
+                Event::End(TagEnd::Link)
+            }
+            // A picture's description stays; the picture would need the network.
+            Event::Start(Tag::Image { .. }) | Event::End(TagEnd::Image) => continue,
+            Event::InlineMath(source) => formula(&source, DisplayMode::Inline),
+            Event::DisplayMath(source) => formula(&source, DisplayMode::Block),
+            other => other,
+        };
+        out.push(harmless);
+    }
+    Some(out)
+}
+
+fn is_harmless(url: &str) -> bool {
+    let lower = url.trim_start().to_ascii_lowercase();
+    ["http://", "https://", "mailto:"].iter().any(|scheme| lower.starts_with(scheme))
+}
+
+/// A formula as MathML, or as typed when it is not one we can set.
+fn formula<'a>(source: &str, display_mode: DisplayMode) -> Event<'a> {
+    match mathml(source, display_mode) {
+        Some(math) => Event::InlineHtml(math.into()),
+        None => Event::Code(source.to_owned().into()),
+    }
+}
+
+fn mathml(source: &str, display_mode: DisplayMode) -> Option<String> {
+    let braces = source.matches('{').count();
+    // `\operatorname` writes its argument as it is.
+    let raw = source.contains("operatorname") && source.contains(['<', '>', '&', '"']);
+    if source.len() > LONGEST_FORMULA || braces > MOST_BRACES || raw {
+        return None;
+    }
+    let storage = pulldown_latex::Storage::new();
+    let events: Vec<_> = pulldown_latex::Parser::new(source, &storage).collect::<Result<_, _>>().ok()?;
+    let config = RenderConfig { display_mode, ..RenderConfig::default() };
+    let events = events.into_iter().map(Ok::<_, pulldown_latex::ParserError>);
+    let mut out = String::new();
+    pulldown_latex::push_mathml(&mut out, events, config).ok()?;
+    Some(out)
+}
+
+/// What may stand in a student's prose.
+static CLEANER: LazyLock<Builder<'static>> = LazyLock::new(|| {
+    let text = [
+        "p",
+        "br",
+        "hr",
+        "strong",
+        "em",
+        "del",
+        "code",
+        "pre",
+        "blockquote",
+        "ul",
+        "ol",
+        "li",
+        "table",
+        "thead",
+        "tbody",
+        "tr",
+        "th",
+        "td",
+        "a",
+    ];
+    let math = [
+        "math",
+        "mrow",
+        "mi",
+        "mn",
+        "mo",
+        "ms",
+        "mtext",
+        "mspace",
+        "mfrac",
+        "msqrt",
+        "mroot",
+        "msup",
+        "msub",
+        "msubsup",
+        "munder",
+        "mover",
+        "munderover",
+        "mmultiscripts",
+        "mprescripts",
+        "mtable",
+        "mtr",
+        "mtd",
+        "mpadded",
+        "mphantom",
+        "mstyle",
+    ];
+    let math_attributes = [
+        "display",
+        "displaystyle",
+        "scriptlevel",
+        "mathvariant",
+        "stretchy",
+        "symmetric",
+        "fence",
+        "separator",
+        "lspace",
+        "rspace",
+        "minsize",
+        "maxsize",
+        "movablelimits",
+        "largeop",
+        "form",
+        "accent",
+        "accentunder",
+        "linethickness",
+        "width",
+        "height",
+        "depth",
+        "columnspan",
+        "rowspan",
+    ];
+    let table_classes = HashSet::from([
+        "menv-alignlike",
+        "menv-arraylike",
+        "menv-cases",
+        "menv-cells-left",
+        "menv-cells-right",
+        "cell-left",
+        "cell-right",
+        "menv-align",
+    ]);
+    let mut attributes: HashMap<&str, HashSet<&str>> =
+        math.iter().map(|&tag| (tag, HashSet::from(math_attributes))).collect();
+    attributes.insert("a", HashSet::from(["href"]));
+    attributes.insert("ol", HashSet::from(["start"]));
+    let mut cleaner = Builder::empty();
+    cleaner
+        .tags(text.into_iter().chain(math).collect())
+        .tag_attributes(attributes)
+        .generic_attributes(HashSet::new())
+        .url_schemes(HashSet::from(["http", "https", "mailto"]))
+        .url_relative(UrlRelative::Deny)
+        .link_rel(Some("noopener noreferrer nofollow"))
+        .clean_content_tags(HashSet::from(["script", "style"]))
+        .allowed_classes(["mtable", "mtr", "mtd"].map(|tag| (tag, table_classes.clone())).into());
+    cleaner
+});
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::Span;
+
+    #[track_caller]
+    fn check(rows: &[(&str, &str, &[&str], &[&str])]) {
+        for (what, markdown, has, has_not) in rows {
+            let html = to_html(markdown);
+            for part in *has {
+                assert!(html.contains(part), "{what}: no {part} in {html}");
+            }
+            for part in *has_not {
+                assert!(!html.to_lowercase().contains(part), "{what}: {part} in {html}");
+            }
+        }
+    }
+
+    #[test]
+    fn ordinary_prose() {
+        check(&[
+            ("paragraphs", "one\n\ntwo *three*", &["<p>one</p>", "<em>three</em>"], &[]),
+            (
+                "a formula",
+                "so $G(s) = \\frac{0.06s}{s^2+1}$",
+                &["<math", "<mfrac>", "0.06"],
+                &["merror", "$"],
+            ),
+            (
+                "a matrix",
+                "$$\\begin{pmatrix}1&2\\\\3&4\\end{pmatrix}$$",
+                &["<mtable", "display=\"block\""],
+                &[],
+            ),
+            ("money", "$5 and $10", &["$5 and $10"], &["<math"]),
+            ("a bad formula", "$\\nonsense x$", &["<code>", "nonsense"], &["merror", "<math"]),
+            ("a link", "[x](https://example.org/a)", &["href=\"https://example.org/a\"", "noopener"], &[]),
+            ("a table", "|a|b|\n|-|-|\n|1|2|", &["<table>", "<td>1</td>"], &[]),
+            ("a heading", "# Title\ntext", &["<strong>Title</strong>"], &["<h1"]),
+            ("a comparison", "a < b && c > d", &["a &lt; b &amp;&amp; c &gt; d"], &[]),
+        ]);
+    }
+
+    #[test]
+    fn hostile_prose_is_harmless() {
+        check(&[
+            ("script", "<script>alert(1)</script>", &["&lt;script&gt;"], &["<script"]),
+            ("style end", "</style><style>*{display:none}", &["&lt;/style&gt;"], &["</style", "<style"]),
+            ("event handler", "<img src=x onerror=alert(1)>", &["&lt;img"], &["<img"]),
+            ("open comment", "<!-- and the rest", &["&lt;!--"], &["<!--"]),
+            ("open math", "<math><table><p>x", &["&lt;math&gt;"], &["<math", "<table"]),
+            ("script link", "[x](javascript:alert(1))", &["x"], &["href", "javascript"]),
+            ("script link, disguised", "[x](JaVaScRiPt&#58;alert(1))", &["x"], &["href"]),
+            ("data link", "[x](data:text/html,<b>)", &["x"], &["href"]),
+            ("relative link", "[x](../other.html)", &["x"], &["href"]),
+            ("autolink", "<javascript:alert(1)>", &[], &["href"]),
+            ("picture", "![a cat](https://example.org/c.png)", &["a cat"], &["<img", "example.org"]),
+            ("raw operator", "$\\operatorname{<img src=x onerror=alert(1)>}$", &["<code>"], &["<img"]),
+            ("raw text", "$\\text{</math><script>alert(1)</script>}$", &[], &["<script"]),
+            ("link in math", "$\\href{javascript:alert(1)}{x}$", &[], &["href="]),
+            ("close the page", "</p></div></main></body></html>", &[], &["</div", "</main", "</body"]),
+            ("footnote", "a[^1]\n\n[^1]: b", &[], &["id="]),
+            ("title with quotes", "[x](https://e.org \"a' onload=\\\"b\")", &["x"], &["onload"]),
+        ]);
+    }
+
+    #[test]
+    fn huge_and_deep_texts_cost_little() {
+        for text in ["> ".repeat(10_000), "[".repeat(20_000), "- ".repeat(9_000), "*a ".repeat(30_000)] {
+            let html = to_html(&text);
+            assert!(html.len() < 200_000, "{} bytes", html.len());
+        }
+        let deep = format!("${}x{}$", "{".repeat(900), "}".repeat(900));
+        assert!(to_html(&deep).contains("<code>"));
+        let wide = format!("|{}\n|{}\n{}", "a|".repeat(1_000), "-|".repeat(1_000), "|b\n".repeat(1_000));
+        assert!(to_html(&wide).contains("class=\"typed\""));
+    }
+
+    #[test]
+    fn quotes_show_words_in_their_place() {
+        let prose = "We expect it to oscillate\nabout θ = 0 and not to settle.";
+        let at = |words: &str, stance| {
+            let start = prose.find(words).unwrap();
+            PhraseMatch { span: Span { start, end: start + words.len() }, concept: "c".into(), stance }
+        };
+        let off =
+            PhraseMatch { span: Span { start: 34, end: 900 }, concept: "c".into(), stance: Stance::Claims };
+        let got = quotes(prose, &[at("oscillate", Stance::Claims), at("not to settle", Stance::Denies), off]);
+        assert_eq!(got.len(), 2, "a span outside the text is passed over");
+        assert_eq!((got[0].before.as_str(), got[0].words.as_str()), ("We expect it to ", "oscillate"));
+        assert_eq!(got[0].after, " about θ = 0 and not to settle.");
+        assert!(got[1].against && !got[0].against);
+    }
+}
