@@ -187,7 +187,7 @@ impl Polynomial {
     }
 
     /// The integer coefficients without common factor, highest power first; empty for zero.
-    fn primitive(&self) -> Vec<IBig> {
+    pub(crate) fn primitive(&self) -> Vec<IBig> {
         let mut common = UBig::ONE;
         for c in &self.coefficients {
             let shared = (&common).gcd(c.denominator());

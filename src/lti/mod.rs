@@ -1,11 +1,14 @@
 //! Linear time-invariant systems: transfer functions, state space, poles, responses.
 
+mod dyadic;
 mod features;
 mod poles;
 mod response;
+mod simple_roots;
 mod stability;
 mod state_space;
 mod transfer_function;
+mod wide;
 
 pub use features::{Extremum, Features, Limit, Shape};
 pub use poles::{Pole, RootError, roots};
