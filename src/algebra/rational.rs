@@ -1,3 +1,5 @@
+use super::clip::clip;
+use dashu_int::ops::UnsignedAbs;
 use dashu_int::{IBig, UBig};
 use dashu_ratio::RBig;
 
@@ -77,6 +79,17 @@ pub fn from_f64(value: f64) -> Option<Rational> {
     RBig::try_from(value).ok()
 }
 
+/// The `n`-th root of a number that is not negative, when it is rational: the square root of 4/9 is 2/3.
+pub fn exact_root(value: &Rational, n: u8) -> Option<Rational> {
+    if *value < Rational::ZERO || n == 0 {
+        return None;
+    }
+    let top = value.numerator().clone().unsigned_abs().nth_root(n.into());
+    let bottom = value.denominator().nth_root(n.into());
+    let root = RBig::from_parts(top.into(), bottom);
+    (root.pow(n.into()) == *value).then_some(root)
+}
+
 /// Whether the sign is a minus, and the rest.
 fn split_sign(text: &str) -> (bool, &str) {
     match text.chars().next() {
@@ -88,14 +101,6 @@ fn split_sign(text: &str) -> (bool, &str) {
 
 fn all_digits(text: &str) -> bool {
     text.bytes().all(|b| b.is_ascii_digit())
-}
-
-/// The beginning of a text, for a message.
-fn clip(text: &str) -> String {
-    match text.char_indices().nth(40) {
-        Some((end, _)) => format!("{}…", &text[..end]),
-        None => text.to_owned(),
-    }
 }
 
 #[cfg(test)]
@@ -153,6 +158,22 @@ mod tests {
         assert_eq!(to_f64(&parse_decimal("1e400").unwrap()), f64::INFINITY);
         assert_eq!(to_f64(&parse_decimal("-1e400").unwrap()), f64::NEG_INFINITY);
         assert_eq!(to_f64(&parse_decimal("1e-400").unwrap()), 0.0);
+    }
+
+    #[test]
+    fn roots_only_when_exact() {
+        for (value, n, root) in [
+            ("0", 2, Some("0")),
+            ("6.25", 2, Some("2.5")),
+            ("0.000001", 3, Some("0.01")),
+            ("2", 2, None),
+            ("-4", 2, None),
+            ("7", 1, Some("7")),
+            ("7", 0, None),
+        ] {
+            let expected = root.map(|r| parse_decimal(r).unwrap());
+            assert_eq!(exact_root(&parse_decimal(value).unwrap(), n), expected, "{value}");
+        }
     }
 
     #[test]

@@ -1,11 +1,12 @@
+use super::greek;
+
 /// A name as a textbook prints it: `theta` → θ, `x''` → ẍ, `omega_n` → ωₙ, `J1` → J₁.
 ///
 /// MathML; anything in the name that is markup is made harmless.
 pub fn symbol_mathml(name: &str, primes: u8) -> String {
     let (base, index) = split_index(name);
-    let letter = greek(base).map_or_else(|| escape(base), str::to_owned);
     // A name of several letters is upright by itself; a single letter is italic.
-    let base = format!("<mi>{letter}</mi>");
+    let base = format!("<mi>{}</mi>", glyph(base));
     let dots = match primes {
         0 => None,
         1 => Some("˙".to_owned()),
@@ -23,8 +24,7 @@ pub fn symbol_mathml(name: &str, primes: u8) -> String {
             format!("<msub>{marked}<mn>{index}</mn></msub>")
         }
         Some(index) => {
-            let index = greek(index).map_or_else(|| escape(index), str::to_owned);
-            format!("<msub>{marked}<mi>{index}</mi></msub>")
+            format!("<msub>{marked}<mi>{}</mi></msub>", glyph(index))
         }
     }
 }
@@ -45,43 +45,9 @@ fn split_index(name: &str) -> (&str, Option<&str>) {
     }
 }
 
-fn greek(name: &str) -> Option<&'static str> {
-    Some(match name {
-        "alpha" => "α",
-        "beta" => "β",
-        "gamma" => "γ",
-        "delta" => "δ",
-        "epsilon" => "ε",
-        "zeta" => "ζ",
-        "eta" => "η",
-        "theta" => "θ",
-        "iota" => "ι",
-        "kappa" => "κ",
-        "lambda" => "λ",
-        "mu" => "μ",
-        "nu" => "ν",
-        "xi" => "ξ",
-        "pi" => "π",
-        "rho" => "ρ",
-        "sigma" => "σ",
-        "tau" => "τ",
-        "upsilon" => "υ",
-        "phi" => "φ",
-        "chi" => "χ",
-        "psi" => "ψ",
-        "omega" => "ω",
-        "Gamma" => "Γ",
-        "Delta" => "Δ",
-        "Theta" => "Θ",
-        "Lambda" => "Λ",
-        "Xi" => "Ξ",
-        "Pi" => "Π",
-        "Sigma" => "Σ",
-        "Phi" => "Φ",
-        "Psi" => "Ψ",
-        "Omega" => "Ω",
-        _ => return None,
-    })
+/// The Greek letter of a name, or the name itself, safe in markup.
+fn glyph(name: &str) -> String {
+    greek::letter(name).map_or_else(|| escape(name), String::from)
 }
 
 fn escape(text: &str) -> String {

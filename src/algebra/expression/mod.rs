@@ -1,10 +1,25 @@
+//! Formulas as trees: read, differentiated, evaluated, printed.
+
+mod differentiate;
+mod evaluate;
+mod lexer;
+mod mathml;
+mod names;
+mod parser;
+mod rational_function;
+mod simplify;
+mod text;
+
 use super::Rational;
+pub use names::SymbolUse;
 
 /// A formula as a tree; each node knows the bytes of the text it came from.
+///
+/// Trees from [`Expression::parse`] are at most 200 nodes high, so recursion over them is safe.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
     pub kind: NodeKind,
-    /// Byte offsets `start..end` into the parsed text.
+    /// Byte offsets `start..end` into the parsed text, parentheses around the node included.
     pub start: usize,
     pub end: usize,
 }
@@ -53,4 +68,74 @@ pub struct ExpressionError {
     pub end: usize,
     pub message: String,
     pub help: Option<String>,
+}
+
+impl Expression {
+    pub(super) fn new(kind: NodeKind, start: usize, end: usize) -> Self {
+        Self { kind, start, end }
+    }
+
+    /// The operands, left to right.
+    pub fn children(&self) -> impl Iterator<Item = &Expression> {
+        let (first, second) = match &self.kind {
+            NodeKind::Number(_) | NodeKind::Pi | NodeKind::Symbol { .. } => (None, None),
+            NodeKind::Negate(a) | NodeKind::Call(_, a) => (Some(&**a), None),
+            NodeKind::Add(a, b)
+            | NodeKind::Subtract(a, b)
+            | NodeKind::Multiply(a, b)
+            | NodeKind::Divide(a, b)
+            | NodeKind::Power(a, b) => (Some(&**a), Some(&**b)),
+        };
+        first.into_iter().chain(second)
+    }
+}
+
+impl Function {
+    const ALL: [Self; 14] = [
+        Self::Sin,
+        Self::Cos,
+        Self::Tan,
+        Self::Asin,
+        Self::Acos,
+        Self::Atan,
+        Self::Sinh,
+        Self::Cosh,
+        Self::Tanh,
+        Self::Exp,
+        Self::Ln,
+        Self::Sqrt,
+        Self::Abs,
+        Self::Sign,
+    ];
+
+    /// As it is written in a formula: `sin`, `asin`, `sqrt`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sin => "sin",
+            Self::Cos => "cos",
+            Self::Tan => "tan",
+            Self::Asin => "asin",
+            Self::Acos => "acos",
+            Self::Atan => "atan",
+            Self::Sinh => "sinh",
+            Self::Cosh => "cosh",
+            Self::Tanh => "tanh",
+            Self::Exp => "exp",
+            Self::Ln => "ln",
+            Self::Sqrt => "sqrt",
+            Self::Abs => "abs",
+            Self::Sign => "sign",
+        }
+    }
+
+    /// The function of a name, usual other spellings included: `arcsin`, `sgn`.
+    pub fn named(name: &str) -> Option<Self> {
+        match name {
+            "arcsin" => Some(Self::Asin),
+            "arccos" => Some(Self::Acos),
+            "arctan" => Some(Self::Atan),
+            "sgn" => Some(Self::Sign),
+            _ => Self::ALL.into_iter().find(|f| f.name() == name),
+        }
+    }
 }
