@@ -6,6 +6,7 @@ mod greek;
 mod matrix;
 mod number_text;
 mod polynomial;
+mod polynomial_determinant;
 mod polynomial_text;
 mod rational;
 mod symbol_mathml;
@@ -14,6 +15,7 @@ pub use expression::{Expression, ExpressionError, Function, NodeKind, SymbolUse}
 pub use matrix::Matrix;
 pub use number_text::{number_mathml, significant};
 pub use polynomial::Polynomial;
+pub use polynomial_determinant::polynomial_determinant;
 pub use polynomial_text::{polynomial_mathml, polynomial_text};
 pub use rational::{NumberError, Rational, exact_root, from_f64, parse_decimal, to_f64};
 pub use symbol_mathml::symbol_mathml;

@@ -3,9 +3,11 @@
 mod compare;
 mod equations;
 mod equilibrium;
+mod exact;
 mod linearization;
 
 pub use compare::{Comparison, ComparisonRun, compare};
 pub use equations::{Coordinate, Equation, Model, ModelError};
-pub use equilibrium::{Equilibrium, Exact};
+pub use equilibrium::Equilibrium;
+pub use exact::Exact;
 pub use linearization::{Linearization, linearize};
