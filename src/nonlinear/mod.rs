@@ -1,11 +1,17 @@
 //! Hard nonlinearities, signals, and block chains simulated with their switching instants located.
 
 mod chain;
+mod fixed_step;
+mod motion;
 mod nonlinearity;
 mod ode;
+mod realization;
+mod run;
 mod signal;
 
-pub use chain::{Block, Chain, ChainError, Run, simulate};
+pub use chain::{Block, Chain, ChainError, simulate, without_nonlinearities};
+pub use fixed_step::simulate_fixed_step;
 pub use nonlinearity::Nonlinearity;
 pub use ode::{OdeError, Trajectory, integrate};
+pub use run::Run;
 pub use signal::Signal;

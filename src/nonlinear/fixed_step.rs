@@ -1,0 +1,111 @@
+use super::realization::Realization;
+use super::{Block, Chain, ChainError, Nonlinearity};
+use nalgebra::{DMatrix, DVector};
+
+/// Output (t, y) of `chain` from rest, by another route than [`simulate`](super::simulate): a check on it.
+///
+/// Each linear block advances by the trapezoidal rule (Tustin's discretization), each nonlinearity is applied sample by sample, and
+/// nothing is located. `steps` are spread over `duration_s` between the jumps of the source, where there are two samples.
+///
+/// Accuracy: the error falls with the square of the step; about 1e-5 of the peak at a thousand steps a period or time
+/// constant, worse for a while after modes faster than a step have been struck.
+/// Errors: as `simulate`; no more than a million steps are taken.
+/// Source: Åström & Wittenmark, *Computer-Controlled Systems*, 3rd ed., 8.2.
+pub fn simulate_fixed_step(
+    chain: &Chain,
+    duration_s: f64,
+    steps: usize,
+) -> Result<Vec<(f64, f64)>, ChainError> {
+    if !duration_s.is_finite() {
+        return Err(ChainError::NotFinite { time_s: 0.0 });
+    }
+    let duration_s = duration_s.max(0.0);
+    let mut stages = Vec::with_capacity(chain.blocks.len());
+    for (index, block) in chain.blocks.iter().enumerate() {
+        stages.push(match block {
+            Block::Nonlinearity(nonlinearity) => Stage::Nonlinearity(*nonlinearity, 0.0),
+            Block::Linear { num, den } => {
+                let realization = Realization::new(index, num, den)?;
+                let rest = DVector::zeros(realization.order());
+                Stage::Linear { realization, state: rest, input: 0.0, step: None }
+            }
+        });
+    }
+
+    let mut samples = Vec::new();
+    let mut start = 0.0;
+    for end in chain.source.breaks(duration_s).into_iter().chain([duration_s]) {
+        let first = pass(&mut stages, chain.source.at(start), 0.0, start)?;
+        if samples.last() != Some(&(start, first)) {
+            samples.push((start, first));
+        }
+        let share = (steps as f64 * (end - start) / duration_s).ceil().max(1.0);
+        if samples.len() as f64 + share > STEPS_LIMIT as f64 {
+            return Err(ChainError::TooManySteps { limit: STEPS_LIMIT, time_s: start });
+        }
+        let h = (end - start) / share;
+        for nth in 1..=share as usize {
+            if h <= 0.0 {
+                break;
+            }
+            let (t, sampled_at) = if nth as f64 == share {
+                (end, end.next_down())
+            } else {
+                (start + nth as f64 * h, start + nth as f64 * h)
+            };
+            samples.push((t, pass(&mut stages, chain.source.at(sampled_at), h, t)?));
+        }
+        start = end;
+    }
+    Ok(samples)
+}
+
+const STEPS_LIMIT: usize = 1_000_000;
+
+enum Stage {
+    /// With its last output.
+    Nonlinearity(Nonlinearity, f64),
+    Linear {
+        realization: Realization,
+        state: DVector<f64>,
+        input: f64,
+        /// Step length, and the matrices that take (state, mean input) across it.
+        step: Option<(f64, DMatrix<f64>, DVector<f64>)>,
+    },
+}
+
+/// Sends one more sample of the source down the chain, `h` seconds after the last; 0 for a jump.
+fn pass(stages: &mut [Stage], source: f64, h: f64, t: f64) -> Result<f64, ChainError> {
+    let mut signal = source;
+    for stage in stages {
+        match stage {
+            Stage::Nonlinearity(nonlinearity, previous) => {
+                signal = nonlinearity.output(signal, *previous);
+                *previous = signal;
+            }
+            Stage::Linear { realization, state, input, step } => {
+                if h > 0.0 && realization.order() > 0 {
+                    let (_, from_state, from_input) = match step {
+                        Some(ready) if ready.0 == h => ready,
+                        _ => {
+                            step.insert(trapezoid(realization, h).ok_or(ChainError::NotFinite { time_s: t })?)
+                        }
+                    };
+                    *state = &*from_state * &*state + &*from_input * ((signal + *input) / 2.0);
+                }
+                *input = signal;
+                signal = realization.c.transpose().dot(state) + realization.d * signal;
+            }
+        }
+    }
+    if signal.is_finite() { Ok(signal) } else { Err(ChainError::NotFinite { time_s: t }) }
+}
+
+/// (1 − a·h/2)⁻¹·(1 + a·h/2) and (1 − a·h/2)⁻¹·b·h; `None` when a pole sits at 2/h.
+fn trapezoid(realization: &Realization, h: f64) -> Option<(f64, DMatrix<f64>, DVector<f64>)> {
+    let order = realization.order();
+    let identity = DMatrix::<f64>::identity(order, order);
+    let half = &realization.a * (h / 2.0);
+    let implicit = (&identity - &half).lu();
+    Some((h, implicit.solve(&(identity + half))?, implicit.solve(&(&realization.b * h))?))
+}
