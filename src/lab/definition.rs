@@ -103,6 +103,8 @@ pub struct Question {
     pub text: String,
     pub points: Points,
     pub outcomes: Vec<String>,
+    /// `<model>.<operating point>` or the id of a simulation, when the lab says so.
+    pub about: Option<String>,
     pub fields: Vec<QuestionField>,
     pub criteria: Vec<Criterion>,
 }
@@ -113,6 +115,8 @@ pub struct QuestionField {
     pub path: String,
     pub kind: FieldKind,
     pub prompt: String,
+    /// Needed for full marks.
+    pub required: bool,
 }
 
 /// What earns points.
@@ -285,7 +289,7 @@ pub enum CoverSource {
 /// `path` into the reference, and what it must be to so many digits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expectation {
-    /// As `reference --format json` nests it: `cart.hanging.poles`, `saturation.peak_with`.
+    /// `cart.hanging.poles`, `saturation.peak_with`: see docs/lab-file.md.
     pub path: String,
     pub values: Vec<ExpectedValue>,
     /// Relative agreement demanded of each.

@@ -1,7 +1,18 @@
 //! What is asked: the lab file, checked, as a [`LabDefinition`].
 
+mod check;
 mod definition;
+mod errors;
+mod file;
+mod load;
+mod model_answer;
+mod names;
 mod points;
+mod read;
+mod sheet;
+mod template;
 
 pub use definition::*;
+pub use errors::{LabErrors, LoadError};
+pub use load::{DEFAULT, embedded, load};
 pub use points::Points;

@@ -1,0 +1,180 @@
+//! From the file as typed to a [`LabDefinition`]: every error found is reported, with its place.
+
+mod cover;
+mod criteria;
+mod expectations;
+mod models;
+mod questions;
+mod scalars;
+mod simulations;
+
+use super::file::{LabFile, Text};
+use super::{LabDefinition, LabErrors, Outcome, Parameter, SystemRef, model_answer, read, sheet};
+use crate::source::{Finding, Node, SourceText, Span, Value};
+use serde_yaml::Spanned;
+
+impl LabDefinition {
+    /// Reads and checks a lab file.
+    ///
+    /// Errors of shape (YAML, unknown or missing keys) come one at a time, since nothing behind them can be read;
+    /// everything else is reported at once.
+    pub fn parse(text: SourceText) -> Result<Self, LabErrors> {
+        match read::read(&text) {
+            Ok((file, tree)) => definition(&file, &tree, text),
+            Err(finding) => Err(LabErrors { source: text, findings: vec![finding] }),
+        }
+    }
+}
+
+fn definition(file: &LabFile, tree: &Node, text: SourceText) -> Result<LabDefinition, LabErrors> {
+    let mut checker = Checker { source: &text, findings: Vec::new() };
+    let lab = checker.lab(file, tree);
+    let mut findings = checker.findings;
+    match lab {
+        Some(lab) if findings.is_empty() => Ok(LabDefinition { text, ..lab }),
+        _ => {
+            findings.sort_by_key(|finding| finding.span.map(|span| span.start));
+            Err(LabErrors { source: text, findings })
+        }
+    }
+}
+
+/// Collects what is wrong while the parts are built. A part that cannot be built is `None`, and has a finding.
+struct Checker<'a> {
+    source: &'a SourceText,
+    findings: Vec<Finding>,
+}
+
+/// Names that later parts refer to, right or wrong, so that one error does not cause others.
+struct Names<'a> {
+    outcomes: Vec<&'a str>,
+    /// `<model>.<operating point>`.
+    systems: Vec<String>,
+    simulations: Vec<&'a str>,
+    questions: Vec<&'a str>,
+}
+
+impl Names<'_> {
+    fn system(&self, path: &str) -> Option<SystemRef> {
+        let known = self.systems.iter().find(|s| *s == path)?;
+        let (model, operating_point) = known.split_once('.')?;
+        Some(SystemRef { model: model.to_owned(), operating_point: operating_point.to_owned() })
+    }
+}
+
+impl Checker<'_> {
+    fn lab(&mut self, file: &LabFile, tree: &Node) -> Option<LabDefinition> {
+        self.id(&file.lab, "lab id");
+        let names = Names {
+            outcomes: file.outcomes.0.iter().map(|(id, _)| id.value.as_str()).collect(),
+            systems: file
+                .models
+                .0
+                .iter()
+                .flat_map(|(model, m)| {
+                    m.operating_points
+                        .value
+                        .0
+                        .iter()
+                        .map(move |(point, _)| format!("{}.{}", model.value, point.value))
+                })
+                .collect(),
+            simulations: file.simulations.0.iter().map(|(id, _)| id.value.as_str()).collect(),
+            questions: file.questions.0.iter().map(|(id, _)| id.value.as_str()).collect(),
+        };
+        let outcomes = file.outcomes.0.iter().map(|(id, text)| {
+            self.id(id, "outcome id");
+            Outcome { id: id.value.clone(), text: text.trim().to_owned() }
+        });
+        let outcomes: Vec<Outcome> = outcomes.collect();
+        let parameters = self.parameters(file);
+        let models = self.models(file, parameters.as_deref());
+        let simulations = self.simulations(file, &names);
+        let tolerances = self.tolerances(&file.tolerances);
+        let questions = self.questions(file, &names, &tolerances);
+        let observed = self.observed(&file.observed, &names);
+        let cover = self.cover(&file.cover, !file.observed.rows.0.is_empty());
+        let expectations = self.expectations(&file.expect, &names);
+        let (questions, parameters) = (questions?, parameters?);
+        let sheet = sheet::sheet(&file.lab.value, file.title.trim(), &questions, &parameters);
+        let model_answer = self.model_answer(file, tree, &sheet)?;
+        Some(LabDefinition {
+            id: file.lab.value.clone(),
+            title: file.title.trim().to_owned(),
+            course: file.course.trim().to_owned(),
+            source_note: file.source.trim().to_owned(),
+            outcomes,
+            parameters,
+            models: models?,
+            simulations: simulations?,
+            questions,
+            observed: observed?,
+            cover: cover?,
+            expectations: expectations?,
+            model_answer,
+            sheet,
+            text: SourceText::default(),
+        })
+    }
+
+    fn parameters(&mut self, file: &LabFile) -> Option<Vec<Parameter>> {
+        let parameters = file.parameters.0.iter().map(|(name, p)| {
+            self.symbol(name, "parameter");
+            let value = self.number(&p.value);
+            let accepted = p.accepted.iter().map(|text| {
+                let other = self.number(text)?;
+                if Some(&other) == value.as_ref() {
+                    let message = format!("`{}` accepts its own value `{}` again", name.value, text.value);
+                    self.error(
+                        "lab.accepted",
+                        span(text),
+                        message,
+                        Some("list only the other values".into()),
+                    );
+                }
+                Some((text.value.clone(), other))
+            });
+            let accepted: Vec<_> = accepted.collect();
+            Some(Parameter {
+                name: name.value.clone(),
+                value: value?,
+                text: p.value.value.clone(),
+                unit: p.unit.clone(),
+                description: p.description.trim().to_owned(),
+                accepted: accepted.into_iter().collect::<Option<_>>()?,
+            })
+        });
+        let parameters: Vec<_> = parameters.collect();
+        parameters.into_iter().collect()
+    }
+
+    fn model_answer(
+        &mut self,
+        file: &LabFile,
+        tree: &Node,
+        sheet: &crate::submission::AnswerSheet,
+    ) -> Option<crate::submission::Submission> {
+        let (answer, findings) = model_answer::read(self.source, file, tree, sheet);
+        let right = findings.is_empty();
+        self.findings.extend(findings);
+        right.then_some(answer)
+    }
+
+    fn error(&mut self, code: &'static str, span: Span, message: impl Into<String>, help: Option<String>) {
+        let finding = Finding::error(code, message).at(span);
+        self.findings.push(match help {
+            Some(help) => finding.with_help(help),
+            None => finding,
+        });
+    }
+
+    /// Where bytes `start..end` of a scalar stand in the file.
+    fn locate(&self, text: &Text, start: usize, end: usize) -> Span {
+        let node = Node { value: Value::Scalar(text.value.clone()), span: span(text) };
+        node.locate(&self.source.text, start, end)
+    }
+}
+
+fn span<T>(spanned: &Spanned<T>) -> Span {
+    read::span(spanned.defined)
+}

@@ -1,0 +1,448 @@
+//! The lab file as typed: serde mirrors of the YAML, nothing checked yet. Each field's comment is its manual.
+
+use serde::de::{Deserialize, Deserializer, IgnoredAny, MapAccess, Visitor};
+use serde_yaml::Spanned;
+use std::fmt;
+use std::marker::PhantomData;
+
+/// A scalar as typed, and where. Numbers stay text until they are read exactly.
+pub(super) type Text = Spanned<String>;
+
+/// A mapping in file order, each key with its place.
+#[derive(Debug)]
+pub(super) struct Entries<T>(pub Vec<(Text, T)>);
+
+impl<T> Default for Entries<T> {
+    fn default() -> Self {
+        Self(Vec::new())
+    }
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Entries<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct EntriesVisitor<T>(PhantomData<T>);
+
+        impl<'de, T: Deserialize<'de>> Visitor<'de> for EntriesVisitor<T> {
+            type Value = Entries<T>;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a mapping")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+                let mut entries = Vec::new();
+                while let Some(entry) = map.next_entry()? {
+                    entries.push(entry);
+                }
+                Ok(Entries(entries))
+            }
+        }
+
+        deserializer.deserialize_map(EntriesVisitor(PhantomData))
+    }
+}
+
+/// A whole lab file.
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LabFile {
+    /// The lab's id: lower-case letters, digits, `-` and `_`. Answer files name it.
+    pub lab: Text,
+    /// Title, one line.
+    pub title: String,
+    /// Course, one line.
+    #[serde(default)]
+    pub course: String,
+    /// Where the lab comes from, one line.
+    #[serde(default)]
+    pub source: String,
+    /// Learning outcomes by id: `a: …`.
+    #[serde(default)]
+    pub outcomes: Entries<String>,
+    /// Physical parameters by the letter the equations use.
+    #[serde(default)]
+    pub parameters: Entries<ParameterFile>,
+    /// Systems given by equations of motion, by id.
+    #[serde(default)]
+    pub models: Entries<ModelFile>,
+    /// Block chains with a nonlinearity in them, by id.
+    #[serde(default)]
+    pub simulations: Entries<SimulationFile>,
+    /// How near is right.
+    #[serde(default)]
+    pub tolerances: TolerancesFile,
+    /// What all questions add up to, points.
+    pub total: Text,
+    /// The questions by id, in the order of the handout. The id is the answer's key and may have dots.
+    pub questions: Entries<QuestionFile>,
+    /// The observation sheet a person fills in during the session.
+    #[serde(default)]
+    pub observed: ObservedFile,
+    /// How the parts make up the total.
+    pub cover: CoverFile,
+    /// Values known independently; `verify` holds the computed ones against them. By path into the reference.
+    #[serde(default)]
+    pub expect: Entries<ExpectFile>,
+}
+
+/// A physical parameter.
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ParameterFile {
+    /// A decimal, read exactly.
+    pub value: Text,
+    /// `kg`, `m/s^2`; empty for none.
+    #[serde(default)]
+    pub unit: String,
+    /// What it is, in words.
+    #[serde(default)]
+    pub description: String,
+    /// Other values taken as right, exactly: a set, never a band. The lab's own value is not repeated.
+    #[serde(default)]
+    pub accepted: Vec<Text>,
+}
+
+/// A system given by its equations of motion.
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ModelFile {
+    /// Title, one line.
+    pub title: String,
+    /// Generalized coordinates by name.
+    pub coordinates: Spanned<Entries<QuantityFile>>,
+    /// Inputs by name.
+    pub inputs: Spanned<Entries<QuantityFile>>,
+    /// As many equations as coordinates, `left = right`, as printed on the handout.
+    pub equations: Spanned<Vec<Text>>,
+    /// Where the system is linearized, by id.
+    pub operating_points: Spanned<Entries<OperatingPointFile>>,
+}
+
+/// A coordinate or an input.
+#[derive(Debug, Default, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct QuantityFile {
+    /// `m`, `rad`, `N`; empty for none.
+    #[serde(default)]
+    pub unit: String,
+    /// What it is, in words.
+    #[serde(default)]
+    pub description: String,
+}
+
+/// An equilibrium and the input and output looked at there.
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct OperatingPointFile {
+    /// Title, one line.
+    pub title: String,
+    /// Coordinates and inputs at rest: numbers, `pi`, and formulas of them; what is left out is 0.
+    #[serde(default)]
+    pub at: Entries<Text>,
+    /// The input that is varied.
+    pub input: Text,
+    /// The coordinate that is watched.
+    pub output: Text,
+    /// How the linear model is held against the nonlinear equations.
+    pub comparison: ComparisonFile,
+}
+
+/// Linear against nonlinear, after an impulse at the input.
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ComparisonFile {
+    /// Seconds looked at, > 0.
+    pub horizon_s: Text,
+    /// Departure at which they are said to part, as a fraction of the linear peak: 0.1 is 10 %.
+    pub departure: Text,
+    /// Impulses drawn, input unit · s; at least one, none zero.
+    pub pushes: Spanned<Vec<Text>>,
+}
+
+/// A source and a chain of blocks, run with and without its nonlinearities.
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SimulationFile {
+    /// Title, one line.
+    pub title: String,
+    /// What drives the chain.
+    pub source: Spanned<SourceFile>,
+    /// The blocks in the order the signal passes them.
+    pub chain: Spanned<Vec<Spanned<BlockFile>>>,
+    /// Seconds simulated, > 0.
+    pub duration_s: Text,
+    /// What drives it, for the axes.
+    pub input: SignalNameFile,
+    /// What comes out, for the axes.
+    pub output: SignalNameFile,
+    /// The question it is shown in.
+    pub shown_in: Text,
+}
+
+/// What a signal is called.
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SignalNameFile {
+    /// `speed`.
+    pub name: String,
+    /// `rad/s`; empty for none.
+    #[serde(default)]
+    pub unit: String,
+}
+
+/// A driving signal.
+#[derive(Debug, serde::Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub(super) enum SourceFile {
+    /// amplitude · sin(frequency · t + phase) + bias.
+    Sine {
+        /// In the input's unit.
+        amplitude: Text,
+        /// Angular frequency, > 0.
+        frequency_rad_s: Text,
+        /// Default 0.
+        phase_rad: Option<Text>,
+        /// Default 0.
+        bias: Option<Text>,
+    },
+    /// `high` for the first part of each period, `low` for the rest.
+    Pulse {
+        /// Default 0.
+        low: Option<Text>,
+        /// In the input's unit.
+        high: Text,
+        /// > 0.
+        period_s: Text,
+        /// Part of the period spent high, 0 to 1. Default 0.5.
+        duty: Option<Text>,
+        /// `low` until then. Default 0.
+        delay_s: Option<Text>,
+    },
+    /// 0, then `amplitude`.
+    Step {
+        /// In the input's unit.
+        amplitude: Text,
+        /// When it steps. Default 0.
+        time_s: Option<Text>,
+    },
+}
+
+/// A block of a chain.
+#[derive(Debug, serde::Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub(super) enum BlockFile {
+    /// Holds the signal within ±`limit`.
+    Saturation {
+        /// > 0.
+        limit: Text,
+    },
+    /// 0 within ±`threshold`; beyond it, the signal less the threshold.
+    DeadZone {
+        /// > 0.
+        threshold: Text,
+    },
+    /// The play of a gear of total width `width` (Simulink's Backlash block).
+    Backlash {
+        /// > 0.
+        width: Text,
+    },
+    /// A proper transfer function; coefficients highest power first.
+    TransferFunction {
+        /// Numerator.
+        num: Spanned<Vec<Text>>,
+        /// Denominator.
+        den: Spanned<Vec<Text>>,
+    },
+}
+
+/// How near is right, by kind of answer. A criterion may have a `tolerance` of its own.
+#[derive(Debug, Default, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TolerancesFile {
+    /// Of transfer function coefficients. Default: relative 0.005.
+    pub coefficients: Option<Spanned<ToleranceFile>>,
+    /// Of poles and of values read off a response. Default: relative 0.01, absolute 0.001, figures 2.
+    pub values: Option<Spanned<ToleranceFile>>,
+    /// Of data against a curve, of its largest |y|. Default: relative 0.02.
+    pub plots: Option<Spanned<ToleranceFile>>,
+}
+
+/// Right within max(absolute, relative · |expected|), or when correctly rounded to at least so many figures.
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ToleranceFile {
+    /// In the value's unit; the width that an expected zero has. Default 0.
+    pub absolute: Option<Text>,
+    /// Of the expected value, 0 to 1. Default 0.
+    pub relative: Option<Text>,
+    /// Significant figures, 1 to 15. Default: none, rounding does not excuse.
+    pub figures: Option<Text>,
+}
+
+/// A question of the handout.
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct QuestionFile {
+    /// As on the handout: `Task 1, question 4`.
+    pub number: String,
+    /// Title, one line.
+    pub title: String,
+    /// What is asked, in Markdown.
+    #[serde(default)]
+    pub text: String,
+    /// Points; its criteria add up to them.
+    pub points: Text,
+    /// Ids of the outcomes it assesses.
+    #[serde(default)]
+    pub outcomes: Vec<Text>,
+    /// What it is about: `<model>.<operating point>` or the id of a simulation.
+    pub about: Option<Text>,
+    /// The one field of the answer, under the question's own id. Give this or `fields`.
+    pub answer: Option<FieldFile>,
+    /// The fields of the answer by name; their paths are `<question id>.<name>`.
+    #[serde(default)]
+    pub fields: Entries<FieldFile>,
+    /// What earns the points, by id.
+    pub criteria: Spanned<Entries<CriterionFile>>,
+    /// The answer that earns full marks, written as a student would.
+    ///
+    /// Not read here: its lines become an answer file, which is read like a student's.
+    #[serde(default, rename = "model_answer")]
+    pub _model_answer: IgnoredAny,
+}
+
+/// A field of an answer.
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FieldFile {
+    /// `transfer_function`, `poles`, `value`, `stability`, `shape`, `nonlinearity`, `prose`, `figure` or `data`.
+    pub kind: Text,
+    /// What is asked for, one line.
+    pub prompt: String,
+    /// Full marks can be had without it. Default false.
+    #[serde(default)]
+    pub optional: bool,
+}
+
+/// What earns points. Which keys a criterion takes depends on its `check`.
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CriterionFile {
+    /// In words, for the report.
+    pub title: String,
+    /// Points, in hundredths at the finest.
+    pub points: Text,
+    /// The field judged, by name. Default: the field whose name is the criterion's id, or its beginning up to a dot; else the
+    /// only field.
+    pub field: Option<Text>,
+    /// `structure`, `numerator`, `denominator`, `poles`, `stability`, `feature`, `shape`, `plot`, `concepts` or `nonlinearity`.
+    pub check: Text,
+    /// The operating point judged against. Default: the question's `about`.
+    pub of: Option<Text>,
+    /// `impulse` or `step`. Default `impulse`. For `feature`, `shape`, `plot`.
+    pub response: Option<Text>,
+    /// For `feature`: `initial_value`, `final_value`, `peak`, `period_s`, `damping_ratio`, `settling_time_2_percent_s` or
+    /// `settling_time_5_percent_s`.
+    pub feature: Option<Text>,
+    /// In place of the lab's.
+    pub tolerance: Option<Spanned<ToleranceFile>>,
+    /// For `denominator`: the part of the points that a single mistyped coefficient leaves, 0 to 1. Default 0.
+    pub one_slip: Option<Text>,
+    /// For `plot`: the field with the data. Default: none, only a figure can be handed in.
+    pub data: Option<Text>,
+    /// For `plot`: fewest data points that are compared. Default 10.
+    pub min_points: Option<Text>,
+    /// For `plot`: seconds the data must span, > 0. Needed when there is `data`.
+    pub span_s: Option<Text>,
+    /// For `concepts`: what the prose should say, by id.
+    pub concepts: Option<Spanned<Entries<ConceptFile>>>,
+    /// For `concepts`: how many of them must be there. Default: all.
+    pub needed: Option<Text>,
+    /// For `concepts`: what it must not say, by id.
+    pub contradictions: Option<Entries<ConceptFile>>,
+    /// For `nonlinearity`: `saturation`, `dead zone`, `backlash`, …
+    pub expected: Option<Text>,
+}
+
+/// Something prose may say.
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ConceptFile {
+    /// In words, for the report: `it swings about the bottom`.
+    pub title: String,
+    /// Any of these says it. Words in order with at most a few between; `oscillat*` matches the beginning of a word.
+    pub phrases: Spanned<Vec<Text>>,
+}
+
+/// The observation sheet.
+#[derive(Debug, Default, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ObservedFile {
+    /// Levels of every row, best first.
+    #[serde(default)]
+    pub levels: Vec<LevelFile>,
+    /// Rows by id.
+    #[serde(default)]
+    pub rows: Entries<ObservedRowFile>,
+}
+
+/// A level of the observation sheet: `from`..=`to` points.
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LevelFile {
+    /// `Meets expectation`.
+    pub title: String,
+    /// Fewest points of this level.
+    pub from: Text,
+    /// Most points of this level.
+    pub to: Text,
+}
+
+/// A row of the observation sheet.
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ObservedRowFile {
+    /// What is observed.
+    pub title: String,
+    /// Ids of the outcomes it assesses.
+    #[serde(default)]
+    pub outcomes: Vec<Text>,
+    /// Most points; the best level ends there.
+    pub points: Text,
+    /// What earns each level, in the order of `levels`.
+    pub texts: Spanned<Vec<String>>,
+}
+
+/// The cover sheet.
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CoverFile {
+    /// What the rows add up to, points.
+    pub total: Text,
+    /// Boxes by id.
+    pub rows: Entries<CoverRowFile>,
+}
+
+/// A box of the cover sheet.
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CoverRowFile {
+    /// `Lab performance`.
+    pub title: String,
+    /// Points of this box.
+    pub points: Text,
+    /// `questions_and_observed` or `questions` or `observed`, scaled to these points; or `by_hand`.
+    pub from: Text,
+}
+
+/// A value known independently. Give `value` or `values`.
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ExpectFile {
+    /// A number, a complex number (`-0.0195 + 5.586j`) or a word.
+    pub value: Option<Text>,
+    /// Several of them, in the order of the reference.
+    pub values: Option<Spanned<Vec<Text>>>,
+    /// Agreement demanded of each, 0 to 1. Default 1e-9.
+    pub relative: Option<Text>,
+}

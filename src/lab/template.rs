@@ -1,0 +1,114 @@
+use super::{LabDefinition, Question};
+use crate::submission::FieldKind;
+
+/// Columns a comment may take.
+const WIDTH: usize = 96;
+
+impl LabDefinition {
+    /// An answer file to fill in: every question with its points, what is asked, and how to write it.
+    ///
+    /// It is YAML that reads as blank, and its examples belong to no question.
+    pub fn answer_template(&self) -> String {
+        let total: super::Points = self.questions.iter().map(|q| q.points).sum();
+        let mut page = Page::default();
+        page.comment("", &format!("{} ({total} points)", self.title));
+        page.comment("", "Write behind the colons and below the bars; what stays empty is not answered.");
+        page.comment("", "Indent with spaces, as it is. Lines that begin with # are only read by you.");
+        page.blank();
+        page.line(&format!("lab: {}", self.id));
+        page.line("student:");
+        page.line("  id:");
+        page.line("  name:");
+        page.blank();
+        page.line("answers:");
+        for question in &self.questions {
+            page.question(question);
+        }
+        page.text
+    }
+}
+
+#[derive(Default)]
+struct Page {
+    text: String,
+}
+
+impl Page {
+    fn question(&mut self, question: &Question) {
+        let points = question.points;
+        let word = if points == super::Points(100) { "point" } else { "points" };
+        self.blank();
+        self.comment("  ", &format!("{}: {} ({points} {word})", question.number, question.title));
+        for paragraph in question.text.split("\n\n").filter(|p| !p.trim().is_empty()) {
+            self.comment("  ", paragraph);
+        }
+        let mut indent = "  ";
+        let own = question.fields.iter().all(|field| field.path == question.id);
+        if !own {
+            self.line(&format!("  {}:", question.id));
+            indent = "    ";
+        }
+        for field in &question.fields {
+            self.comment(indent, &field.prompt);
+            for line in how_to_write(field.kind) {
+                self.line(&format!("{indent}#   {line}"));
+            }
+            let name = match field.path.strip_prefix(&question.id).and_then(|rest| rest.strip_prefix('.')) {
+                Some(name) if !own => name,
+                _ => &field.path,
+            };
+            let bar = if field.kind == FieldKind::Prose { " |" } else { "" };
+            self.line(&format!("{indent}{name}:{bar}"));
+        }
+    }
+
+    /// Words in comment lines of [`WIDTH`] columns.
+    fn comment(&mut self, indent: &str, text: &str) {
+        let mut line = format!("{indent}#");
+        let bare = line.chars().count();
+        for word in text.split_whitespace() {
+            if line.chars().count() > bare && line.chars().count() + 1 + word.chars().count() > WIDTH {
+                self.line(&line);
+                line.truncate(indent.len() + 1);
+            }
+            line.push(' ');
+            line.push_str(word);
+        }
+        if line.chars().count() > bare {
+            self.line(&line);
+        }
+    }
+
+    fn line(&mut self, line: &str) {
+        self.text.push_str(line);
+        self.text.push('\n');
+    }
+
+    fn blank(&mut self) {
+        self.text.push('\n');
+    }
+}
+
+fn how_to_write(kind: FieldKind) -> &'static [&'static str] {
+    match kind {
+        FieldKind::TransferFunction => {
+            &["such as (2s + 1)/(s^2 + 3s + 7)", "or {num: [2, 1], den: [1, 3, 7]}, highest power of s first"]
+        }
+        FieldKind::Poles => &["such as [-4, -2 ± 3j], rad/s; a pole that is there twice is written twice"],
+        FieldKind::Value => &["a number, or unbounded"],
+        FieldKind::Stability => &["stable, marginally stable or unstable"],
+        FieldKind::Shape => &[
+            "decaying oscillation, sustained oscillation, growing oscillation,",
+            "exponential decay, exponential growth, polynomial growth or constant",
+        ],
+        FieldKind::Nonlinearity => &[
+            "saturation, dead zone, backlash, relay, Coulomb friction, hysteresis, quantization or rate limit",
+        ],
+        FieldKind::Prose => &["sentences below the bar, indented; Markdown with $math$ if you like"],
+        FieldKind::Figure => &["a PNG or JPEG beside this file, such as my-plot.png"],
+        FieldKind::Data => &[
+            "a CSV beside this file with columns t, y, such as my-run.csv",
+            "or the rows themselves: | behind the colon, then lines such as 0.0, 1.0 below, indented",
+        ],
+    }
+}
