@@ -154,8 +154,11 @@ mod tests {
         Matrix { rows: rows.iter().map(|row| row.iter().map(|&x| Rational::from(x)).collect()).collect() }
     }
 
+    /// Name, rows, determinant.
+    type Row<'a> = (&'a str, &'a [&'a [i64]], Option<i64>);
+
     #[track_caller]
-    fn check_determinant(rows: &[(&str, &[&[i64]], Option<i64>)]) {
+    fn check_determinant(rows: &[Row]) {
         for (name, m, expected) in rows {
             assert_eq!(matrix(m).determinant(), expected.map(Rational::from), "{name}");
         }

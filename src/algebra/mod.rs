@@ -1,6 +1,7 @@
 //! Exact rationals, polynomials and expressions. No files, no students, no prose.
 
 mod clip;
+mod coprime;
 mod expression;
 mod greek;
 mod matrix;

@@ -1,3 +1,4 @@
+use super::coprime::surely_coprime;
 use super::{Rational, to_f64};
 use dashu_int::ops::{Abs, Gcd};
 use dashu_int::{IBig, UBig};
@@ -140,6 +141,9 @@ impl Polynomial {
     /// Source: Euclid on integer polynomials, each remainder freed of its content; Knuth, *TAOCP* 2, 4.6.1.
     pub fn gcd(&self, other: &Self) -> Self {
         let (mut a, mut b) = (self.primitive(), other.primitive());
+        if surely_coprime(&a, &b) {
+            return Self::one();
+        }
         if a.len() < b.len() {
             std::mem::swap(&mut a, &mut b);
         }
@@ -317,8 +321,11 @@ mod tests {
         assert_eq!((zero.monic(), zero.derivative()), (zero.clone(), zero));
     }
 
+    /// Name, two polynomials, their divisor.
+    type Row<'a> = (&'a str, &'a [i64], &'a [i64], &'a [i64]);
+
     #[track_caller]
-    fn check_gcd(rows: &[(&str, &[i64], &[i64], &[i64])]) {
+    fn check_gcd(rows: &[Row]) {
         for (name, a, b, expected) in rows {
             assert_eq!(p(a).gcd(&p(b)), p(expected), "{name}");
             assert_eq!(p(b).gcd(&p(a)), p(expected), "{name}, turned round");

@@ -36,8 +36,11 @@ mod tests {
         rows.iter().map(|row| row.iter().map(|c| Polynomial::from_integers(c)).collect()).collect()
     }
 
+    /// Name, entries, determinant.
+    type Row<'a> = (&'a str, &'a [&'a [&'a [i64]]], &'a [i64]);
+
     #[track_caller]
-    fn check(rows: &[(&str, &[&[&[i64]]], &[i64])]) {
+    fn check(rows: &[Row]) {
         for (name, m, expected) in rows {
             assert_eq!(polynomial_determinant(matrix(m)), Polynomial::from_integers(expected), "{name}");
         }

@@ -107,14 +107,14 @@ impl Exact {
         }
         if let (Self::Known { rational: a, pi: p }, Self::Known { rational: b, pi: q }) = (&self, &other)
             // (a + pπ)/(b + qπ) is rational when one is a multiple of the other.
-            && &(a * q) == &(b * p)
+            && (a * q) == (b * p)
         {
             return Ok(Self::rational(p / q));
         }
         approximate(self.to_f64() / other.to_f64(), "division")
     }
 
-    fn to_the(self, exponent: Self) -> Result<Self, ModelError> {
+    fn raised_to(self, exponent: Self) -> Result<Self, ModelError> {
         if let (Some(base), Some(power)) = (self.as_rational(), exponent.as_rational()) {
             if base.is_zero() && *power < Rational::ZERO {
                 return Err(undefined("division by zero"));
@@ -168,7 +168,7 @@ pub(super) fn evaluate(
             (Err(e), _) | (_, Err(e)) => Err(e),
         },
         NodeKind::Divide(a, b) => of(a)?.over(of(b)?),
-        NodeKind::Power(a, b) => of(a)?.to_the(of(b)?),
+        NodeKind::Power(a, b) => of(a)?.raised_to(of(b)?),
         NodeKind::Call(function, a) => call(*function, of(a)?, purpose),
     }
 }

@@ -139,3 +139,32 @@ impl Function {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeMap;
+
+    /// The highest trees the parser lets through, worked on with half a thread's usual stack.
+    #[test]
+    fn the_highest_trees_fit_a_small_stack() {
+        let work = || {
+            for text in [
+                format!("{}s", "s+".repeat(198)),
+                format!("{}s{}", "(s+1)*(".repeat(48), ")".repeat(48)),
+                format!("{}s{}", "1/(s+".repeat(32), ")".repeat(32)),
+                format!("{}s{}", "sin(".repeat(97), ")".repeat(97)),
+                format!("{}s", "-".repeat(97)),
+                format!("{}s", "s^".repeat(97)),
+            ] {
+                let tree = Expression::parse_typed(&text).unwrap_or_else(|e| panic!("{text}: {e}"));
+                let slope = tree.differentiate("s", 0);
+                assert!(!slope.to_mathml().is_empty() && !slope.to_string().is_empty());
+                assert!(slope.eval_f64(&|_: &str, _| Some(0.5)).is_ok());
+                let _ = tree.rational_function("s", &BTreeMap::new());
+            }
+        };
+        let thread = std::thread::Builder::new().stack_size(1024 * 1024).spawn(work);
+        thread.unwrap().join().unwrap();
+    }
+}

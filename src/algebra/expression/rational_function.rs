@@ -10,7 +10,7 @@ impl Expression {
     /// `symbols` gives the values of the other names. `pi` is its nearest `f64`. Constants in a denominator are
     /// divided into the numerator.
     /// Errors: unknown names, functions of the variable, division by zero, powers that are not whole, and results
-    /// beyond degree 60 or 4096 bits a coefficient.
+    /// beyond degree 60 or 2048 bits a coefficient.
     pub fn rational_function(
         &self,
         variable: &str,
@@ -23,7 +23,7 @@ impl Expression {
 }
 
 const MOST_DEGREE: usize = 60;
-const MOST_BITS: usize = 4096;
+const MOST_BITS: usize = 2048;
 /// Products of coefficients, in all.
 const MOST_MULTIPLICATIONS: usize = 100_000;
 
@@ -44,38 +44,59 @@ impl Quotient {
         Self { num, den: Polynomial::one() }
     }
 
-    fn constant(&self) -> Option<Rational> {
+    fn constant(value: Rational) -> Self {
+        Self::polynomial(Polynomial::constant(value))
+    }
+
+    fn negated(self) -> Self {
+        Self { num: -&self.num, den: self.den }
+    }
+
+    fn as_constant(&self) -> Option<Rational> {
         (self.num.degree() == 0 && self.den == Polynomial::one()).then(|| self.num.coefficient(0))
     }
 }
 
 impl Work<'_> {
+    /// Only dispatches: with the work done elsewhere, a high tree needs little stack.
     fn quotient(&mut self, node: &Expression) -> Result<Quotient, ExpressionError> {
         match &node.kind {
-            NodeKind::Number(value) => Ok(Quotient::polynomial(Polynomial::constant(value.clone()))),
-            NodeKind::Pi => {
-                let pi = from_f64(std::f64::consts::PI).unwrap_or(Rational::ZERO);
-                Ok(Quotient::polynomial(Polynomial::constant(pi)))
-            }
+            NodeKind::Number(value) => Ok(Quotient::constant(value.clone())),
+            NodeKind::Pi => Ok(Quotient::constant(from_f64(std::f64::consts::PI).unwrap_or(Rational::ZERO))),
             NodeKind::Symbol { name, primes } => self.symbol(node, name, *primes),
-            NodeKind::Negate(a) => {
-                let a = self.quotient(a)?;
-                Ok(Quotient { num: -&a.num, den: a.den })
+            NodeKind::Negate(a) => self.quotient(a).map(Quotient::negated),
+            NodeKind::Call(function, a) => {
+                let argument = self.quotient(a)?;
+                self.call(node, *function, &argument)
             }
-            NodeKind::Add(a, b) => self.sum(node, a, b, false),
-            NodeKind::Subtract(a, b) => self.sum(node, a, b, true),
-            NodeKind::Multiply(a, b) => {
-                let (a, b) = (self.quotient(a)?, self.quotient(b)?);
-                self.product(node, &a, &b)
+            NodeKind::Add(a, b)
+            | NodeKind::Subtract(a, b)
+            | NodeKind::Multiply(a, b)
+            | NodeKind::Divide(a, b)
+            | NodeKind::Power(a, b) => {
+                let left = self.quotient(a)?;
+                let right = self.quotient(b)?;
+                self.combine(node, a, b, (left, right))
             }
-            NodeKind::Divide(a, b) => {
-                let top = self.quotient(a)?;
-                let bottom = self.quotient(b)?;
-                let inverse = self.inverse(b, bottom)?;
-                self.product(node, &top, &inverse)
+        }
+    }
+
+    fn combine(
+        &mut self,
+        node: &Expression,
+        a: &Expression,
+        b: &Expression,
+        (left, right): (Quotient, Quotient),
+    ) -> Result<Quotient, ExpressionError> {
+        match &node.kind {
+            NodeKind::Add(..) => self.sum(node, left, right),
+            NodeKind::Subtract(..) => self.sum(node, left, right.negated()),
+            NodeKind::Divide(..) => {
+                let inverse = self.inverse(b, right)?;
+                self.product(node, &left, &inverse)
             }
-            NodeKind::Power(a, b) => self.power(node, a, b),
-            NodeKind::Call(function, a) => self.call(node, *function, a),
+            NodeKind::Power(..) => self.power(node, (a, left), (b, right)),
+            _ => self.product(node, &left, &right),
         }
     }
 
@@ -90,7 +111,7 @@ impl Work<'_> {
             return Ok(Quotient::polynomial(Polynomial::monomial(Rational::ONE, 1)));
         }
         match self.symbols.get(name) {
-            Some(value) => Ok(Quotient::polynomial(Polynomial::constant(value.clone()))),
+            Some(value) => Ok(Quotient::constant(value.clone())),
             None => {
                 let mut known = vec![self.variable];
                 known.extend(self.symbols.keys().map(String::as_str));
@@ -99,14 +120,7 @@ impl Work<'_> {
         }
     }
 
-    fn sum(
-        &mut self,
-        node: &Expression,
-        a: &Expression,
-        b: &Expression,
-        minus: bool,
-    ) -> Result<Quotient, ExpressionError> {
-        let (a, b) = (self.quotient(a)?, self.quotient(b)?);
+    fn sum(&mut self, node: &Expression, a: Quotient, b: Quotient) -> Result<Quotient, ExpressionError> {
         let (left, right, den) = if a.den == b.den {
             (a.num, b.num, a.den)
         } else {
@@ -114,7 +128,7 @@ impl Work<'_> {
             let right = self.multiply(node, &b.num, &a.den)?;
             (left, right, self.multiply(node, &a.den, &b.den)?)
         };
-        let num = if minus { &left - &right } else { &left + &right };
+        let num = &left + &right;
         within_budget(node, &num)?;
         Ok(Quotient { num, den })
     }
@@ -146,31 +160,29 @@ impl Work<'_> {
     fn power(
         &mut self,
         node: &Expression,
-        a: &Expression,
-        b: &Expression,
+        (a, base): (&Expression, Quotient),
+        (b, exponent): (&Expression, Quotient),
     ) -> Result<Quotient, ExpressionError> {
-        let base = self.quotient(a)?;
-        let exponent = self.quotient(b)?;
-        let Some(exponent) = exponent.constant() else {
+        let Some(exponent) = exponent.as_constant() else {
             return Err(error(b, format!("a power with `{}` in it is no transfer function", self.variable)));
         };
         if !exponent.is_int() {
-            if let Some(value) = base.constant()
+            if let Some(value) = base.as_constant()
                 && exponent == Rational::ONE / Rational::from(2)
                 && let Some(root) = exact_root(&value, 2)
             {
-                return Ok(Quotient::polynomial(Polynomial::constant(root)));
+                return Ok(Quotient::constant(root));
             }
             let shown = number_text(&exponent);
             return Err(error(b, format!("`{}` is not a whole power", clip(&shown))));
         }
         let base = if exponent < Rational::ZERO { self.inverse(a, base)? } else { base };
         let times = usize::try_from(exponent.numerator().clone().abs()).unwrap_or(usize::MAX);
-        if let Some(value) = base.constant() {
+        if let Some(value) = base.as_constant() {
             return self.number_power(node, &value, times);
         }
         if base.num.degree().max(base.den.degree()).saturating_mul(times) > MOST_DEGREE {
-            return Err(too_large(node, &format!("of a degree beyond {MOST_DEGREE}")));
+            return Err(too_large(node, &format!("has a degree beyond {MOST_DEGREE}")));
         }
         let mut result = Quotient::polynomial(Polynomial::one());
         for _ in 0..times {
@@ -188,21 +200,20 @@ impl Work<'_> {
         let trivial = value.is_zero() || *value == Rational::ONE || *value == Rational::NEG_ONE;
         let times = if trivial && times > 1 { 2 - times % 2 } else { times };
         if bits(value).saturating_sub(1).saturating_mul(times) > MOST_BITS {
-            return Err(too_large(node, "with a number too long to hold"));
+            return Err(too_large(node, "has a number too long to hold"));
         }
         let result = (0..times).fold(Rational::ONE, |product, _| product * value);
-        Ok(Quotient::polynomial(Polynomial::constant(result)))
+        Ok(Quotient::constant(result))
     }
 
     fn call(
-        &mut self,
+        &self,
         node: &Expression,
         function: Function,
-        a: &Expression,
+        argument: &Quotient,
     ) -> Result<Quotient, ExpressionError> {
-        let argument = self.quotient(a)?;
         let name = function.name();
-        let Some(value) = argument.constant() else {
+        let Some(value) = argument.as_constant() else {
             let message = format!("`{name}` of `{}` is no ratio of polynomials", self.variable);
             return Err(error(node, message));
         };
@@ -212,7 +223,7 @@ impl Work<'_> {
             _ => None,
         };
         match exact {
-            Some(value) => Ok(Quotient::polynomial(Polynomial::constant(value))),
+            Some(value) => Ok(Quotient::constant(value)),
             None => Err(ExpressionError {
                 help: Some("write its value as a decimal number".to_owned()),
                 ..error(node, format!("`{name}` has no exact value here"))
@@ -227,11 +238,11 @@ impl Work<'_> {
         b: &Polynomial,
     ) -> Result<Polynomial, ExpressionError> {
         if a.degree() + b.degree() > MOST_DEGREE {
-            return Err(too_large(node, &format!("of a degree beyond {MOST_DEGREE}")));
+            return Err(too_large(node, &format!("has a degree beyond {MOST_DEGREE}")));
         }
         self.multiplications += (a.degree() + 1) * (b.degree() + 1);
         if self.multiplications > MOST_MULTIPLICATIONS {
-            return Err(too_large(node, "with too much to multiply out"));
+            return Err(too_large(node, "takes more work than we do"));
         }
         let product = a * b;
         within_budget(node, &product)?;
@@ -246,13 +257,13 @@ fn bits(value: &Rational) -> usize {
 
 fn within_budget(node: &Expression, p: &Polynomial) -> Result<(), ExpressionError> {
     if p.coefficients().iter().any(|c| bits(c) > MOST_BITS) {
-        return Err(too_large(node, "with a number too long to hold"));
+        return Err(too_large(node, "has a number too long to hold"));
     }
     Ok(())
 }
 
-fn too_large(node: &Expression, how: &str) -> ExpressionError {
-    error(node, format!("multiplied out, this is {how}"))
+fn too_large(node: &Expression, what: &str) -> ExpressionError {
+    error(node, format!("multiplied out, this {what}"))
 }
 
 fn error(node: &Expression, message: String) -> ExpressionError {
