@@ -2,9 +2,17 @@
 
 mod answer;
 mod attachments;
+mod decimal;
+mod decimal_commas;
+mod figure;
+mod formula;
+mod poles;
+mod problem;
 mod read;
 mod self_check;
+mod series;
 mod sheet;
+mod value;
 mod words;
 
 pub use answer::{

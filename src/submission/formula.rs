@@ -1,0 +1,300 @@
+use super::decimal_commas::decimal_comma_between;
+use super::problem::{Problem, quote};
+use super::words::closest;
+use super::{AnswerSheet, AnswerValue, Decimal};
+use crate::algebra::{Expression, ExpressionError, Polynomial, Rational};
+use crate::lti::TransferFunction;
+use crate::source::{Finding, Node, Value};
+use std::collections::BTreeMap;
+
+const CODE: &str = "transfer_function.unreadable";
+const HELP: &str = "Write it like `0.5s / (s^2 + 2s + 5)`, or as coefficients, highest power first: `{num: [0.5, 0], den: [1, 2, 5]}`.";
+
+/// Coefficients of one polynomial.
+const MAX_COEFFICIENTS: usize = 61;
+
+type Symbols = BTreeMap<String, Rational>;
+
+/// A transfer function as text, or as `{num: […], den: […]}`, and what is worth saying about it.
+pub(super) fn read_transfer_function(
+    node: &Node,
+    sheet: &AnswerSheet,
+    source: &str,
+) -> Result<(AnswerValue, Vec<Finding>), Box<Finding>> {
+    let (transfer_function, formula) = match &node.value {
+        Value::Scalar(text) => {
+            parse_formula(text, &sheet.symbols).map_err(|p| Box::new(p.into_finding(node, source)))?
+        }
+        Value::Mapping(entries) => (from_coefficients(node, entries, &sheet.symbols, source)?, None),
+        Value::Sequence(_) | Value::Null => {
+            let message = format!("A transfer function is asked for here, and {} is given.", node.kind());
+            return Err(Box::new(Finding::error(CODE, message).with_help(HELP).at(node.span)));
+        }
+    };
+    let (num, den) = (transfer_function.num.degree(), transfer_function.den.degree());
+    let notes = if num > den {
+        let message = format!("As written, the numerator has degree {num} and the denominator only {den}.");
+        let help = "If the denominator is a sum, put it in parentheses: `a / (b + c)`.";
+        vec![Finding::warning("transfer_function.improper", message).with_help(help).at(node.span)]
+    } else {
+        Vec::new()
+    };
+    Ok((AnswerValue::TransferFunction { transfer_function, formula }, notes))
+}
+
+/// `G(s) = -0.06s / (…)`, also in letters, also MATLAB's `tf([…], […])`.
+fn parse_formula(text: &str, symbols: &Symbols) -> Result<(TransferFunction, Option<Expression>), Problem> {
+    // What stands before the last `=` is a name.
+    let start = text.rfind(['=', '≈']).map_or(0, |i| i + text[i..].chars().next().map_or(1, char::len_utf8));
+    let body = &text[start..];
+    if let Some((num, den)) = matlab(body) {
+        let list = |list: &str| coefficient_words(list).map(Polynomial::new);
+        let problem = || Problem::new(CODE, start, text.len(), "This `tf(…)` cannot be read.").help(HELP);
+        let (num, den) = (list(num).ok_or_else(problem)?, list(den).ok_or_else(problem)?);
+        return match TransferFunction::new(num, den) {
+            Some(g) => Ok((g, None)),
+            None => Err(Problem::new(CODE, start, text.len(), "The denominator is zero.").help(HELP)),
+        };
+    }
+    let read = |expression: Expression| {
+        let (num, den) = expression.rational_function("s", symbols)?;
+        Ok((num, den, expression))
+    };
+    let (num, den, formula) =
+        Expression::parse_typed(body).and_then(read).map_err(|error| formula_problem(error, start))?;
+    match TransferFunction::new(num, den) {
+        Some(g) => Ok((g, Some(formula))),
+        None => Err(Problem::new(CODE, start, text.len(), "The denominator is zero.").help(HELP)),
+    }
+}
+
+fn formula_problem(error: ExpressionError, offset: usize) -> Problem {
+    let help = error.help.as_deref().map_or_else(|| HELP.to_owned(), sentence);
+    let message = format!("The formula cannot be read here: {}.", error.message);
+    Problem::new(CODE, error.start + offset, error.end + offset, message).help(help)
+}
+
+/// A lower-case fragment as a sentence.
+fn sentence(fragment: &str) -> String {
+    let mut chars = fragment.chars();
+    let first = chars.next().map(|c| c.to_uppercase().collect::<String>()).unwrap_or_default();
+    let end = if fragment.ends_with(['.', '?', '!']) { "" } else { "." };
+    format!("{first}{}{end}", chars.as_str())
+}
+
+/// The two lists of `tf([…], […])`.
+fn matlab(text: &str) -> Option<(&str, &str)> {
+    let inner = text.trim().trim_end_matches(';').strip_prefix("tf")?.trim_start();
+    let inner = inner.strip_prefix('(')?.strip_suffix(')')?.trim();
+    let (num, rest) = inner.strip_prefix('[')?.split_once(']')?;
+    let den = rest.trim_start().strip_prefix(',')?.trim().strip_prefix('[')?.strip_suffix(']')?;
+    Some((num, den))
+}
+
+/// Decimals separated by commas, semicolons or spaces.
+fn coefficient_words(text: &str) -> Option<Vec<Rational>> {
+    let text = text.trim().trim_start_matches('[').trim_end_matches(']');
+    let words: Vec<&str> =
+        text.split(|c: char| c.is_whitespace() || matches!(c, ',' | ';')).filter(|w| !w.is_empty()).collect();
+    if words.is_empty() || words.len() > MAX_COEFFICIENTS {
+        return None;
+    }
+    words.into_iter().map(|word| Decimal::parse(word).ok().map(|d| d.value)).collect()
+}
+
+type Entry = (String, crate::source::Span, Node);
+
+fn from_coefficients(
+    node: &Node,
+    entries: &[Entry],
+    symbols: &Symbols,
+    source: &str,
+) -> Result<TransferFunction, Box<Finding>> {
+    const NUM: &[&str] = &["num", "numerator", "n"];
+    const DEN: &[&str] = &["den", "denominator", "denom", "d"];
+    let (mut num, mut den) = (None, None);
+    for (key, span, value) in entries {
+        let name = key.trim().to_lowercase();
+        let part = if NUM.contains(&name.as_str()) {
+            &mut num
+        } else if DEN.contains(&name.as_str()) {
+            &mut den
+        } else {
+            let near = closest(&name, ["num", "den", "numerator", "denominator"]);
+            let help = near.map_or_else(|| HELP.to_owned(), |near| format!("Did you mean `{near}`?"));
+            let message = format!("{} is not a part of a transfer function.", quote(key));
+            return Err(Box::new(Finding::error(CODE, message).with_help(help).at(*span)));
+        };
+        if part.is_some() {
+            let message = format!("{} is given twice.", quote(key));
+            return Err(Box::new(Finding::error(CODE, message).with_help(HELP).at(*span)));
+        }
+        *part = Some(polynomial(value, symbols, source)?);
+    }
+    let missing = |part: &str| {
+        Box::new(
+            Finding::error(CODE, format!("The {part} of the transfer function is missing."))
+                .with_help(HELP)
+                .at(node.span),
+        )
+    };
+    let (num, den) = (num.ok_or_else(|| missing("numerator"))?, den.ok_or_else(|| missing("denominator"))?);
+    TransferFunction::new(num, den).ok_or_else(|| {
+        Box::new(Finding::error(CODE, "The denominator is zero.").with_help(HELP).at(node.span))
+    })
+}
+
+/// A polynomial as a list of coefficients, as text with such a list, or as a formula in `s`.
+fn polynomial(node: &Node, symbols: &Symbols, source: &str) -> Result<Polynomial, Box<Finding>> {
+    match &node.value {
+        Value::Sequence(items) => {
+            if let Some(finding) = decimal_comma_between(items, source, false) {
+                return Err(Box::new(finding));
+            }
+            if items.is_empty() || items.len() > MAX_COEFFICIENTS {
+                let message = format!(
+                    "A list of 1 to {MAX_COEFFICIENTS} coefficients is asked for here, and {} are given.",
+                    items.len()
+                );
+                return Err(Box::new(Finding::error(CODE, message).with_help(HELP).at(node.span)));
+            }
+            items
+                .iter()
+                .map(|item| coefficient(item, symbols, source))
+                .collect::<Result<_, _>>()
+                .map(Polynomial::new)
+        }
+        Value::Scalar(text) => {
+            if let Some(words) = coefficient_words(text) {
+                return Ok(Polynomial::new(words));
+            }
+            let (num, den) = Expression::parse_typed(text)
+                .and_then(|expression| expression.rational_function("s", symbols))
+                .map_err(|error| Box::new(formula_problem(error, 0).into_finding(node, source)))?;
+            match den.leading() {
+                Some(divisor) if den.degree() == 0 => Ok(num.scale(&(Rational::ONE / divisor))),
+                _ => Err(Box::new(
+                    Finding::error(CODE, "Numerator and denominator have to be polynomials in `s`.")
+                        .with_help(HELP)
+                        .at(node.span),
+                )),
+            }
+        }
+        Value::Null | Value::Mapping(_) => {
+            let message = format!("A list of coefficients is asked for here, and {} is given.", node.kind());
+            Err(Box::new(Finding::error(CODE, message).with_help(HELP).at(node.span)))
+        }
+    }
+}
+
+/// A decimal or letters: `0.0132`, `m*l`, `-1/3`.
+fn coefficient(node: &Node, symbols: &Symbols, source: &str) -> Result<Rational, Box<Finding>> {
+    let Some(text) = node.as_scalar() else {
+        let message = format!("A coefficient is asked for here, and {} is given.", node.kind());
+        return Err(Box::new(Finding::error(CODE, message).with_help(HELP).at(node.span)));
+    };
+    if let Ok(decimal) = Decimal::parse(text) {
+        return Ok(decimal.value);
+    }
+    let (num, den) = Expression::parse_typed(text)
+        .and_then(|expression| expression.rational_function("s", symbols))
+        .map_err(|error| Box::new(formula_problem(error, 0).into_finding(node, source)))?;
+    match den.leading() {
+        Some(divisor) if num.degree() == 0 && den.degree() == 0 => Ok(num.coefficient(0) / divisor),
+        _ => {
+            let message = format!("{} is not a number: coefficients stand without `s`.", quote(text));
+            Err(Box::new(Finding::error(CODE, message).with_help(HELP).at(node.span)))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::algebra::parse_decimal;
+    use crate::source::parse;
+
+    fn sheet() -> AnswerSheet {
+        let symbols = [("M", "0.5"), ("b", "0.1"), ("m", "0.2"), ("l", "0.3"), ("I", "0.006"), ("g", "9.81")]
+            .map(|(name, value)| (name.to_owned(), parse_decimal(value).unwrap()));
+        AnswerSheet { symbols: symbols.into(), ..AnswerSheet::default() }
+    }
+
+    fn read(yaml: &str) -> Result<(TransferFunction, Vec<Finding>), Finding> {
+        let text = format!("g: {yaml}");
+        let tree = parse(&text).unwrap_or_else(|e| panic!("{yaml:?}: {e:?}"));
+        match read_transfer_function(tree.get("g").unwrap(), &sheet(), &text) {
+            Ok((AnswerValue::TransferFunction { transfer_function, .. }, notes)) => {
+                Ok((transfer_function, notes))
+            }
+            Ok(other) => panic!("{other:?}"),
+            Err(finding) => Err(*finding),
+        }
+    }
+
+    #[test]
+    fn every_spelling_is_the_same_transfer_function() {
+        let list =
+            |texts: &[&str]| Polynomial::new(texts.iter().map(|t| parse_decimal(t).unwrap()).collect());
+        let expected =
+            TransferFunction::new(list(&["-0.06", "0"]), list(&["0.0132", "0.0024", "0.41202", "0.05886"]))
+                .unwrap();
+        for yaml in [
+            "-0.06s / (0.0132s^3 + 0.0024s^2 + 0.41202s + 0.05886)",
+            "-0.06*s/(0.0132*s^3 + 0.0024*s^2 + 0.41202*s + 0.05886)",
+            "−0.06 s / (0.0132 s³ + 0.0024 s² + 0.41202 s + 0.05886)",
+            "G(s) = -0.06s / (0.0132s^3 + 0.0024s^2 + 0.41202s + 0.05886)",
+            "\"G₀(s) = Θ(s)/F(s) = -0.06s / (0.0132s^3 + 0.0024s^2 + 0.41202s + 0.05886)\"",
+            "= -0.06s / (0.0132s^3 + 0.0024s^2 + 0.41202s + 0.05886)",
+            "(-0.06 s) / (1.32e-2 s**3 + 2.4e-3 s**2 + 0.41202 s + 0.05886)",
+            "-m*l*s / (((M+m)*(I+m*l^2) - m^2*l^2)*s^3 + b*(I+m*l^2)*s^2 + (M+m)*m*g*l*s + b*m*g*l)",
+            "'{num: [x]}'",
+            "{num: [-0.06, 0], den: [0.0132, 0.0024, 0.41202, 0.05886]}",
+            "{numerator: [-0.06, 0], denominator: [0.0132, 0.0024, 0.41202, 0.05886]}",
+            "{num: [-m*l, 0], den: [0.0132, 0.0024, (M+m)*m*g*l, b*m*g*l]}",
+            "{num: -0.06s, den: 0.0132s^3 + 0.0024s^2 + 0.41202s + 0.05886}",
+            "{num: '[-0.06 0]', den: '0.0132 0.0024 0.41202 0.05886'}",
+            "{num: [0, −0.06, 0], den: ['0.0132', 0.0024, 4.1202e-1, 0.05886]}",
+            "tf([-0.06 0], [0.0132 0.0024 0.41202 0.05886])",
+            "tf([-0.06, 0], [0.0132, 0.0024, 0.41202, 0.05886]);",
+        ] {
+            if yaml == "'{num: [x]}'" {
+                assert!(read(yaml).is_err());
+                continue;
+            }
+            let found = read(yaml);
+            assert_eq!(found.as_ref().map(|(g, _)| g), Ok(&expected), "{yaml:?}");
+            assert!(found.unwrap().1.is_empty(), "{yaml:?}");
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_read_says_where_and_how() {
+        for (yaml, marked, words) in [
+            ("-0,06s / (s + 1)", "0,06", "comma"),
+            ("1/(s + q)", "q", "`q`"),
+            ("1/(s + 1", "(", "never closed"),
+            ("{num: [1], den: [0, 0]}", "{num: [1], den: [0, 0]}", "zero"),
+            ("{num: [1]}", "{num: [1]}", "denominator of the transfer function is missing"),
+            ("{num: [1], dem: [1]}", "dem", "not a part"),
+            ("{num: [1s], den: [1, 1]}", "1s", "without `s`"),
+            ("{num: [[1]], den: [1, 1]}", "[1]", "a list"),
+            ("{num: {a: 1}, den: [1, 1]}", "{a: 1}", "a mapping"),
+            ("{num: [-0,06, 0], den: [1, 1]}", "-0,06", "comma"),
+            ("[1, 2]", "[1, 2]", "a list"),
+            ("unknown words here", "unknown", "`unknown`"),
+        ] {
+            let finding = read(yaml).unwrap_err();
+            let span = finding.span.unwrap();
+            assert_eq!(&format!("g: {yaml}")[span.start..span.end], marked, "{yaml:?}: {finding:?}");
+            assert!(finding.message.contains(words), "{yaml:?}: {finding:?}");
+            assert!(finding.message.ends_with('.') && finding.help.is_some(), "{yaml:?}: {finding:?}");
+        }
+    }
+
+    #[test]
+    fn a_forgotten_parenthesis_is_suspected() {
+        let (_, notes) = read("0.06*s/0.0132*s^3 + 0.0024*s^2 + 0.412*s + 0.0589").unwrap();
+        assert_eq!(notes.iter().map(|n| n.code).collect::<Vec<_>>(), ["transfer_function.improper"]);
+    }
+}

@@ -1,0 +1,578 @@
+use super::Decimal;
+use super::decimal::{is_minus, scan};
+use super::problem::{Problem, quote};
+use super::value::decimal_comma;
+
+/// Poles in one list, repeated ones counted.
+pub(super) const MAX_POLES: usize = 60;
+
+const CODE: &str = "poles.unreadable";
+const HELP: &str = "Write a pole like `-0.143`, `-2+3.1j` or `-2 ± 3.1j`; a double one like `-1 (x2)`.";
+
+/// A pole and the bytes of the text it was read from.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct ReadPole {
+    pub re: Decimal,
+    pub im: Decimal,
+    pub start: usize,
+    pub end: usize,
+}
+
+/// One or more poles as text: `-0.143, -0.0195 ± 5.59j`, `[-1; -2+3i]`, `-1 (x2)`, `s = -0.143` …
+///
+/// `a ± bj` gives two; a multiplicity repeats the pole.
+pub(super) fn parse_poles(text: &str) -> Result<Vec<ReadPole>, Problem> {
+    let mut cursor = Cursor { text, at: 0 };
+    let mut poles = Vec::new();
+    cursor.skip_space();
+    let bracketed = cursor.eat_any(&['[', '{']).is_some();
+    loop {
+        cursor.skip_separators();
+        if bracketed {
+            cursor.eat_any(&[']', '}']);
+            cursor.skip_separators();
+        }
+        if cursor.at == text.len() {
+            return Ok(poles);
+        }
+        let found = cursor.item()?;
+        if poles.len() + found.len() > MAX_POLES {
+            return Err(Problem::new(
+                "poles.too_many",
+                0,
+                text.len(),
+                format!("The list has more than the {MAX_POLES} poles we read."),
+            ));
+        }
+        poles.extend(found);
+        let here = cursor.at;
+        cursor.skip_space();
+        let closed = bracketed && cursor.rest().starts_with([']', '}']);
+        if cursor.at < text.len() && !closed && !cursor.at_separator() {
+            return Err(cursor.unreadable(here, text.len()));
+        }
+    }
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Sign {
+    Plus,
+    Minus,
+    Both,
+}
+
+struct Term {
+    sign: Sign,
+    size: Decimal,
+    imaginary: bool,
+}
+
+impl Term {
+    /// The signed sizes: two for `±`.
+    fn values(&self) -> Vec<Decimal> {
+        match self.sign {
+            Sign::Plus => vec![self.size.clone()],
+            Sign::Minus => vec![self.size.negated()],
+            Sign::Both => vec![self.size.clone(), self.size.negated()],
+        }
+    }
+}
+
+struct Cursor<'a> {
+    text: &'a str,
+    at: usize,
+}
+
+impl Cursor<'_> {
+    fn rest(&self) -> &str {
+        &self.text[self.at..]
+    }
+
+    fn peek(&self) -> Option<char> {
+        self.rest().chars().next()
+    }
+
+    fn skip_space(&mut self) {
+        self.at =
+            self.text.len() - self.rest().trim_start_matches(|c: char| c.is_whitespace() && c != '\n').len();
+    }
+
+    fn eat_any(&mut self, chars: &[char]) -> Option<char> {
+        let c = self.peek().filter(|c| chars.contains(c))?;
+        self.at += c.len_utf8();
+        Some(c)
+    }
+
+    /// Eats `word` (lower case) when it stands here as a word of its own.
+    fn eat_word(&mut self, word: &str) -> bool {
+        let rest = self.rest();
+        let fits = rest.get(..word.len()).is_some_and(|head| head.eq_ignore_ascii_case(word))
+            && !rest[word.len()..].starts_with(char::is_alphanumeric);
+        if fits {
+            self.at += word.len();
+        }
+        fits
+    }
+
+    fn at_separator(&self) -> bool {
+        let rest = self.rest();
+        rest.starts_with([',', ';', '\n', '&']) || Cursor { text: self.text, at: self.at }.eat_word("and")
+    }
+
+    fn skip_separators(&mut self) {
+        loop {
+            let before = self.at;
+            self.skip_space();
+            self.eat_any(&[',', ';', '\n', '\r', '&']);
+            self.eat_word("and");
+            if self.at == before {
+                return;
+            }
+        }
+    }
+
+    fn unreadable(&self, start: usize, end: usize) -> Problem {
+        let shown = if self.text[start..end].trim().is_empty() { self.text } else { &self.text[start..end] };
+        Problem::new(CODE, start, end, format!("{} is not a number we can read.", quote(shown))).help(HELP)
+    }
+
+    /// A pole, its conjugate after `±`, and repetitions.
+    fn item(&mut self) -> Result<Vec<ReadPole>, Problem> {
+        self.skip_name();
+        let start = self.at;
+        let opened = self.eat_any(&['(']).is_some();
+        let first = self.term(start, true)?;
+        self.skip_space();
+        let second = match self.peek() {
+            Some(c) if is_minus(c) || matches!(c, '+' | '±' | '∓') => Some(self.term(start, false)?),
+            _ => None,
+        };
+        if opened {
+            self.skip_space();
+            if self.eat_any(&[')']).is_none() {
+                return Err(Problem::new(
+                    CODE,
+                    start,
+                    self.at,
+                    "A parenthesis is opened here and not closed.",
+                )
+                .help(HELP));
+            }
+        }
+        let end = self.at;
+        let (re, im) = match (&first, &second) {
+            (a, None) if a.imaginary => (vec![Decimal::absent()], a.values()),
+            (a, None) => (a.values(), vec![Decimal::absent()]),
+            (a, Some(b)) if a.imaginary != b.imaginary => {
+                let (re, im) = if a.imaginary { (b, a) } else { (a, b) };
+                if re.sign == Sign::Both {
+                    return Err(self.unreadable(start, end));
+                }
+                (re.values(), im.values())
+            }
+            _ => return Err(self.two_of_a_kind(&first, start, end)),
+        };
+        self.skip_unit();
+        let times = self.multiplicity()?;
+        let once: Vec<ReadPole> = re
+            .iter()
+            .flat_map(|re| im.iter().map(|im| ReadPole { re: re.clone(), im: im.clone(), start, end }))
+            .collect();
+        Ok(once.iter().flat_map(|pole| std::iter::repeat_n(pole.clone(), times)).collect())
+    }
+
+    fn two_of_a_kind(&self, first: &Term, start: usize, end: usize) -> Problem {
+        let kind = if first.imaginary { "imaginary" } else { "real" };
+        let typed = quote(&self.text[start..end]);
+        Problem::new(CODE, start, end, format!("{typed} has two {kind} parts.")).help(if first.imaginary {
+            HELP.to_owned()
+        } else {
+            format!("An imaginary part ends in `j` or `i`. {HELP}")
+        })
+    }
+
+    /// `s =`, `p1 =`, `p_{1,2}:`, `≈` in front of a pole.
+    fn skip_name(&mut self) {
+        let rest = self.rest();
+        if rest.starts_with(|c: char| c.is_alphabetic()) {
+            let name = rest
+                .char_indices()
+                .find(|(i, c)| {
+                    !(*i == 0
+                        || c.is_ascii_digit()
+                        || matches!(c, '_' | '{' | '}' | ',' | ' ' | '₀'..='₉' | '-' | '/'))
+                })
+                .map(|(i, c)| (i, c));
+            if let Some((i, c)) = name
+                && matches!(c, '=' | ':' | '≈')
+            {
+                self.at += i + c.len_utf8();
+            }
+        }
+        loop {
+            self.skip_space();
+            if self.eat_any(&['≈', '~', '=']).is_none() {
+                return;
+            }
+        }
+    }
+
+    /// `+`, `-`, `±`, `+-`, `+/-`; `None` when no sign stands here.
+    fn sign(&mut self) -> Option<Sign> {
+        let c = self.peek()?;
+        let kind = |c: char| match c {
+            '+' => Some(Sign::Plus),
+            '±' | '∓' => Some(Sign::Both),
+            c if is_minus(c) => Some(Sign::Minus),
+            _ => None,
+        };
+        let first = kind(c)?;
+        self.at += c.len_utf8();
+        if first == Sign::Both {
+            return Some(first);
+        }
+        let rest = self.rest();
+        let other = rest.strip_prefix('/').unwrap_or(rest);
+        match other.chars().next().map(|c| (c, kind(c))) {
+            Some((c, Some(second))) if second != first && second != Sign::Both => {
+                self.at = self.text.len() - other.len() + c.len_utf8();
+                Some(Sign::Both)
+            }
+            _ => Some(first),
+        }
+    }
+
+    fn imaginary_unit(&mut self) -> bool {
+        let mut after = self.rest().chars();
+        let unit = after.next().is_some_and(|c| matches!(c, 'i' | 'j' | 'I' | 'J'));
+        let alone = !after.next().is_some_and(|c| c.is_alphabetic());
+        if unit && alone {
+            self.at += 1;
+        }
+        unit && alone
+    }
+
+    fn term(&mut self, item: usize, first: bool) -> Result<Term, Problem> {
+        self.skip_space();
+        let sign = match self.sign() {
+            Some(sign) => sign,
+            None if first => Sign::Plus,
+            None => return Err(self.unreadable(item, self.text.len())),
+        };
+        self.skip_space();
+        if self.imaginary_unit() {
+            self.skip_space();
+            if self.eat_any(&['*', '·', '×']).is_some() {
+                self.skip_space();
+            }
+            let size = match self.number()? {
+                Some(size) => size,
+                None => Decimal { text: "1".to_owned(), ..unit_size() },
+            };
+            return Ok(Term { sign, size, imaginary: true });
+        }
+        let Some(size) = self.number()? else {
+            return Err(self.unreadable(item, self.end_of_item()));
+        };
+        let after_number = self.at;
+        self.skip_space();
+        let times = self.eat_any(&['*', '·', '×']).is_some();
+        self.skip_space();
+        let imaginary = self.imaginary_unit();
+        if !imaginary {
+            self.at = after_number;
+            // `-1 × 2` may be a multiplicity, `-1 * x` is not a number.
+            if times && self.rest().trim_start().starts_with(['*', '·']) {
+                return Err(self.unreadable(item, self.end_of_item()));
+            }
+        }
+        Ok(Term { sign, size, imaginary })
+    }
+
+    fn number(&mut self) -> Result<Option<Decimal>, Problem> {
+        let Some((number, length)) = scan(self.rest()) else { return Ok(None) };
+        if let Some(problem) = decimal_comma(self.text, self.at, length) {
+            let or = "If the comma separates two numbers, put a space after it.";
+            let help = problem.help.as_deref().map(|help| format!("{help} {or}"));
+            return Err(Problem { help, ..problem });
+        }
+        let start = self.at;
+        self.at += length;
+        // `3..1` and `1.2.3`: the rest of the digits belong to the complaint.
+        if self.rest().starts_with('.') {
+            return Err(self.unreadable(start, self.end_of_item()));
+        }
+        number.map(Some).map_err(|error| Problem::new(CODE, start, self.at, format!("{error}.")).help(HELP))
+    }
+
+    fn end_of_item(&self) -> usize {
+        let rest = self.rest();
+        self.at + rest.find([',', ';', '\n', ']']).unwrap_or(rest.len())
+    }
+
+    fn skip_unit(&mut self) {
+        let here = self.at;
+        self.skip_space();
+        let rest = self.rest();
+        for unit in ["rad/sec", "rad/s", "1/s", "s^-1", "s⁻¹"] {
+            if rest.starts_with(unit) && !rest[unit.len()..].starts_with(char::is_alphanumeric) {
+                self.at += unit.len();
+                return;
+            }
+        }
+        self.at = here;
+    }
+
+    /// `(x2)`, `×2`, `(double)`, `twice`, `(multiplicity 2)`, `(2 times)` after a pole; 1 when nothing is said.
+    fn multiplicity(&mut self) -> Result<usize, Problem> {
+        let here = self.at;
+        self.skip_space();
+        if self.at_separator() {
+            self.at = here;
+            return Ok(1);
+        }
+        let start = self.at;
+        let parenthesised = self.rest().starts_with(['(', '[']);
+        let words = if parenthesised {
+            let close = self.rest().find([')', ']']).map(|i| self.at + i);
+            let Some(close) = close else {
+                return Err(Problem::new(
+                    CODE,
+                    start,
+                    self.text.len(),
+                    "A parenthesis is opened here and not closed.",
+                )
+                .help(HELP));
+            };
+            self.at = close + 1;
+            self.text[start + 1..close].to_owned()
+        } else {
+            let end = self.end_of_item();
+            let words = self.text[start..end].to_owned();
+            // `-1 double and -2`: the separator is not part of it.
+            let words = words.split(" and ").next().unwrap_or_default().trim_end().to_owned();
+            self.at = start + words.len();
+            words
+        };
+        if words.is_empty() && !parenthesised {
+            self.at = here;
+            return Ok(1);
+        }
+        match times(&words) {
+            Some(n) if (1..=MAX_POLES).contains(&n) => Ok(n),
+            _ => Err(Problem::new(
+                "poles.multiplicity",
+                start,
+                self.at,
+                format!(
+                    "{} after a pole is not read as its multiplicity.",
+                    quote(&self.text[start..self.at])
+                ),
+            )
+            .help("Write a double pole like `-1 (x2)`, or list it twice.")),
+        }
+    }
+}
+
+fn unit_size() -> Decimal {
+    Decimal { text: "1".to_owned(), value: crate::algebra::Rational::ONE, last_place: 0 }
+}
+
+fn times(words: &str) -> Option<usize> {
+    let lower = words.to_lowercase();
+    if lower
+        .contains(|c: char| !c.is_alphanumeric() && !c.is_whitespace() && !matches!(c, '×' | '=' | ':' | '-'))
+    {
+        return None;
+    }
+    // `x2`, `2x` and `×2` become `x 2`.
+    let lower = lower.replace('×', " x ");
+    let (mut number, mut bare, mut marked) = (None, false, false);
+    for word in lower.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()) {
+        let n = match word {
+            "double" | "twice" | "two" => 2,
+            "triple" | "thrice" | "three" => 3,
+            "quadruple" | "four" => 4,
+            "simple" | "once" | "single" => 1,
+            "multiplicity" | "mult" | "order" | "times" | "time" | "x" | "m" | "n" | "repeated" => {
+                marked = true;
+                continue;
+            }
+            "of" | "pole" | "poles" | "root" | "roots" | "real" | "a" | "conjugate" | "pair" | "complex" => {
+                continue;
+            }
+            word => {
+                let digits = word.strip_prefix('x').or_else(|| word.strip_suffix('x')).unwrap_or(word);
+                marked |= digits.len() < word.len();
+                bare = true;
+                digits.parse().ok()?
+            }
+        };
+        if number.is_some_and(|before| before != n) {
+            return None;
+        }
+        number = Some(n);
+    }
+    match number {
+        Some(_) if bare && !marked => None,
+        Some(n) => Some(n),
+        None => harmless_remark(&lower).then_some(1),
+    }
+}
+
+/// `(pole)`, `(complex conjugate pair)`: says nothing about how often.
+fn harmless_remark(lower: &str) -> bool {
+    !lower.contains("repeated")
+        && !lower.contains("mult")
+        && !lower.contains("order")
+        && lower.contains("pole")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<Vec<(String, String)>, Problem> {
+        parse_poles(text).map(|poles| poles.into_iter().map(|p| (p.re.text, p.im.text)).collect())
+    }
+
+    #[track_caller]
+    fn check(text: &str, expected: &[(&str, &str)]) {
+        let found = read(text).unwrap_or_else(|p| panic!("{text:?}: {p:?}"));
+        let found: Vec<_> = found.iter().map(|(a, b)| (a.as_str(), b.as_str())).collect();
+        assert_eq!(found, expected, "{text:?}");
+    }
+
+    #[test]
+    fn every_spelling_of_a_pair() {
+        for text in [
+            "-0.0195 ± 5.59j",
+            "-0.0195±5.59j",
+            "-0.0195 +- 5.59j",
+            "-0.0195 +/- 5.59j",
+            "-0.0195 -+ 5.59j",
+            "-0.0195 +/- 5.59i",
+            "-0.0195 ± 5.59J",
+            "-0.0195 ± j5.59",
+            "-0.0195 ± j 5.59",
+            "-0.0195 ± i5.59",
+            "-0.0195 ± j*5.59",
+            "-0.0195 ± 5.59*j",
+            "-0.0195 ± 5.59 * j",
+            "-0.0195 ± 5.59·j",
+            "\u{2212}0.0195 ± 5.59j",
+            "\u{2212}\u{a0}0.0195\u{a0}±\u{a0}5.59j",
+            "- 0.0195 ± 5.59 j",
+            "(-0.0195 ± 5.59j)",
+            "±5.59j - 0.0195",
+            "s = -0.0195 ± 5.59j",
+            "p_{1,2} = -0.0195 ± 5.59j",
+            "p1,2 = -0.0195 ± 5.59j",
+            "-0.0195 ± 5.59j rad/s",
+            "-0.0195 ± 5.59j (complex conjugate poles)",
+            "-0.0195 + 5.59j, -0.0195 - 5.59j",
+            "[-0.0195 + 5.59i; -0.0195 - 5.59i]",
+            "-0.0195+5.59i\n-0.0195-5.59i\n",
+            "-0.0195 + j5.59 and -0.0195 - j5.59",
+        ] {
+            check(text, &[("-0.0195", "5.59"), ("-0.0195", "-5.59")]);
+        }
+    }
+
+    #[test]
+    fn real_and_imaginary_poles() {
+        check("-0.143", &[("-0.143", "0")]);
+        check("-1e-3", &[("-1e-3", "0")]);
+        check("-1.4×10^-1", &[("-1.4e-1", "0")]);
+        check("0", &[("0", "0")]);
+        check("≈ -0.14", &[("-0.14", "0")]);
+        check("j", &[("0", "1")]);
+        check("-j2", &[("0", "-2")]);
+        check("±3", &[("3", "0"), ("-3", "0")]);
+        check("± 5.5j", &[("0", "5.5"), ("0", "-5.5")]);
+        check("0 ± 5.5j", &[("0", "5.5"), ("0", "-5.5")]);
+        check("-1, -2, -3", &[("-1", "0"), ("-2", "0"), ("-3", "0")]);
+        check("-1,-2,-3", &[("-1", "0"), ("-2", "0"), ("-3", "0")]);
+        check("-1; -2", &[("-1", "0"), ("-2", "0")]);
+        check("-1 and -2", &[("-1", "0"), ("-2", "0")]);
+        check("", &[]);
+        check("[]", &[]);
+    }
+
+    #[test]
+    fn multiplicities() {
+        for text in [
+            "-1 (x2)",
+            "-1 x2",
+            "-1 (×2)",
+            "-1 ×2",
+            "-1 × 2",
+            "-1 (2x)",
+            "-1 (double)",
+            "-1 double",
+            "-1 (double pole)",
+            "-1 (twice)",
+            "-1 (multiplicity 2)",
+            "-1 (multiplicity: 2)",
+            "-1 (m = 2)",
+            "-1 (2 times)",
+            "-1 (order 2)",
+            "-1 (repeated twice)",
+            "(-1) (x2)",
+        ] {
+            check(text, &[("-1", "0"), ("-1", "0")]);
+        }
+        check("-1 (triple), -2", &[("-1", "0"), ("-1", "0"), ("-1", "0"), ("-2", "0")]);
+        check("-1 double and -2", &[("-1", "0"), ("-1", "0"), ("-2", "0")]);
+        check("-1 ± 2j (x2)", &[("-1", "2"), ("-1", "2"), ("-1", "-2"), ("-1", "-2")]);
+    }
+
+    #[test]
+    fn what_is_not_a_pole_says_where_and_how() {
+        for (text, code, marked) in [
+            ("-2+j3..1", CODE, "3..1"),
+            ("-0,143", "number.decimal_comma", "0,143"),
+            ("-0.0195 ± 5,59j", "number.decimal_comma", "5,59"),
+            ("-1 + 2", CODE, "-1 + 2"),
+            ("2j + 3j", CODE, "2j + 3j"),
+            ("-1 -2", CODE, "-1 -2"),
+            ("sqrt(2)", CODE, "sqrt(2)"),
+            ("-1/3", "poles.multiplicity", "/3"),
+            ("-1 (repeated)", "poles.multiplicity", "(repeated)"),
+            ("-1 2", "poles.multiplicity", "2"),
+            ("-1 (2)", "poles.multiplicity", "(2)"),
+            ("-1 (x0)", "poles.multiplicity", "(x0)"),
+            ("-1 (x1000000)", "poles.multiplicity", "(x1000000)"),
+            ("-1 (x2", CODE, "(x2"),
+            ("(-1", CODE, "(-1"),
+            ("±1 ± 2j", CODE, "±1 ± 2j"),
+            ("5∠90°", "poles.multiplicity", "∠90°"),
+            ("-1, abc, -2", CODE, "abc"),
+            ("1e999", CODE, "1e999"),
+            ("nan", CODE, "nan"),
+        ] {
+            let problem = read(text).unwrap_err();
+            assert_eq!(
+                (problem.code, &text[problem.start..problem.end]),
+                (code, marked),
+                "{text:?}: {problem:?}"
+            );
+            assert!(problem.help.is_some() && problem.message.ends_with('.'), "{problem:?}");
+        }
+        assert_eq!(read(&"-1,".repeat(200)).unwrap_err().code, "poles.too_many");
+        assert!(read(&"(".repeat(100_000)).is_err());
+    }
+
+    #[test]
+    fn the_help_of_a_decimal_comma_keeps_the_sign() {
+        let problem = read("-0,143").unwrap_err();
+        assert!(problem.help.unwrap().starts_with("Write `-0.143`."));
+    }
+
+    #[test]
+    fn each_pole_knows_its_place() {
+        let text = "-1, -2 ± 3j (x2)";
+        let places: Vec<_> = parse_poles(text).unwrap().iter().map(|p| &text[p.start..p.end]).collect();
+        assert_eq!(places, ["-1", "-2 ± 3j", "-2 ± 3j", "-2 ± 3j", "-2 ± 3j"]);
+    }
+}

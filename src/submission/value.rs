@@ -1,0 +1,349 @@
+use super::FinalValue;
+use super::decimal::{is_minus, scan};
+use super::problem::{Problem, quote};
+
+const HELP: &str = "Write a number such as `0`, `-0.143` or `1e-3`, or `unbounded`, `+∞` or `-∞`.";
+
+/// A value or a limit as typed: `0`, `≈ -0.143 rad`, `unbounded`, `-∞`, `does not exist` …
+pub(super) fn parse_value(text: &str) -> Result<FinalValue, Problem> {
+    if let Some(value) = limit_word(text) {
+        return Ok(value);
+    }
+    let unreadable = |start: usize, end: usize| {
+        Problem::new("value.unreadable", start, end, format!("{} is not a value we can read.", quote(text)))
+            .help(HELP)
+    };
+    let start = text.len() - strip_hedge(text).len();
+    let body = &text[start..];
+    let (sign, unsigned) = match body.chars().next() {
+        Some(c) if is_minus(c) => (true, body[c.len_utf8()..].trim_start()),
+        Some('+') => (false, body[1..].trim_start()),
+        _ => (false, body),
+    };
+    if unsigned.trim().trim_end_matches('.').eq_ignore_ascii_case("zero") {
+        return parse_value("0");
+    }
+    let Some((number, length)) = scan(unsigned) else {
+        return Err(unreadable(0, text.len()));
+    };
+    let digits_at = text.len() - unsigned.len();
+    let rest = &unsigned[length..];
+    if let Some(problem) = decimal_comma(text, digits_at, length) {
+        return Err(problem);
+    }
+    let number = number.map_err(|error| {
+        Problem::new("value.unreadable", start, digits_at + length, format!("{error}.")).help(HELP)
+    })?;
+    let number = if sign { number.negated() } else { number };
+    match unit(rest) {
+        Unit::None | Unit::Coherent => Ok(FinalValue::Number(number)),
+        Unit::Other if number.is_zero() => Ok(FinalValue::Number(number)),
+        Unit::Other => Err(Problem::new(
+            "value.unit",
+            digits_at + length,
+            text.len(),
+            format!("The unit {} would change the number, so the value is not read.", quote(rest)),
+        )
+        .help("Give the value in SI units without prefix (rad, rad/s, m, s, V), or without a unit.")),
+        Unit::NotAUnit => Err(unreadable(digits_at + length, text.len())),
+    }
+}
+
+/// A number whose whole part is followed by `,` and a digit: how to write it.
+pub(super) fn decimal_comma(text: &str, start: usize, length: usize) -> Option<Problem> {
+    let fraction = text[start + length..].strip_prefix(',')?;
+    let digits = fraction.bytes().take_while(u8::is_ascii_digit).count();
+    if digits == 0 || text[start..start + length].contains(['.', 'e', 'E']) {
+        return None;
+    }
+    let end = start + length + 1 + digits;
+    let minus = text[..start].trim_end().chars().next_back().is_some_and(is_minus);
+    let written = format!(
+        "{}{}.{}",
+        if minus { "-" } else { "" },
+        &text[start..start + length],
+        &text[start + length + 1..end]
+    );
+    Some(
+        Problem::new(
+            "number.decimal_comma",
+            start,
+            end,
+            format!("{} has a decimal comma, which is not read.", quote(&text[start..end])),
+        )
+        .help(format!("Write {}.", quote(&written))),
+    )
+}
+
+enum Unit {
+    None,
+    /// Factor 1 in SI.
+    Coherent,
+    Other,
+    NotAUnit,
+}
+
+fn unit(text: &str) -> Unit {
+    let text = text.trim().trim_end_matches('.');
+    const COHERENT: &[&str] = &[
+        "rad",
+        "rads",
+        "radian",
+        "radians",
+        "rad/s",
+        "rad/sec",
+        "radians/second",
+        "m",
+        "metre",
+        "metres",
+        "meter",
+        "meters",
+        "m/s",
+        "s",
+        "sec",
+        "second",
+        "seconds",
+        "v",
+        "volt",
+        "volts",
+        "n",
+        "newton",
+        "newtons",
+        "a",
+        "1/s",
+        "s^-1",
+        "s⁻¹",
+        "rad s^-1",
+        "rad·s⁻¹",
+        "rad s⁻¹",
+    ];
+    const OTHER: &[&str] = &[
+        "deg",
+        "degs",
+        "degree",
+        "degrees",
+        "°",
+        "º",
+        "deg/s",
+        "°/s",
+        "degrees/second",
+        "ms",
+        "mrad",
+        "mm",
+        "cm",
+        "mv",
+        "kv",
+        "hz",
+        "rpm",
+        "%",
+        "percent",
+        "min",
+        "revolutions",
+        "rev",
+    ];
+    let lower = text.to_lowercase();
+    match lower.as_str() {
+        "" => Unit::None,
+        unit if COHERENT.contains(&unit) => Unit::Coherent,
+        unit if OTHER.contains(&unit) => Unit::Other,
+        _ => Unit::NotAUnit,
+    }
+}
+
+/// Without `≈`, `~`, `=`, `about`, `approximately` in front.
+fn strip_hedge(text: &str) -> &str {
+    let mut rest = text.trim_start();
+    loop {
+        let before = rest;
+        rest = rest.trim_start_matches(['≈', '~', '=', '≅', '≃', '→']).trim_start();
+        for word in ["approximately ", "approx. ", "approx ", "about ", "ca. ", "nearly "] {
+            if rest.get(..word.len()).is_some_and(|head| head.eq_ignore_ascii_case(word)) {
+                rest = rest[word.len()..].trim_start();
+            }
+        }
+        if rest == before {
+            return rest;
+        }
+    }
+}
+
+/// `unbounded`, `∞`, `diverges`, `does not exist`, `goes to minus infinity` …
+fn limit_word(text: &str) -> Option<FinalValue> {
+    if text.len() > 200 {
+        return None;
+    }
+    let mut flat = String::with_capacity(text.len() + 16);
+    for c in text.to_lowercase().chars() {
+        match c {
+            '∞' => flat.push_str(" infinity "),
+            '±' => flat.push_str(" plusminus "),
+            c if is_minus(c) => flat.push_str(" minus "),
+            '+' => flat.push_str(" plus "),
+            '’' | '\'' => {}
+            c if c.is_alphanumeric() => flat.push(c),
+            _ => flat.push(' '),
+        }
+    }
+    let words: Vec<&str> = flat.split_whitespace().filter(|word| !FILLERS.contains(word)).collect();
+    let signed = |sign: Option<&str>| match sign {
+        Some("plus" | "positive") => FinalValue::PlusInfinity,
+        Some("minus" | "negative") => FinalValue::MinusInfinity,
+        _ => FinalValue::Unbounded,
+    };
+    match words.as_slice() {
+        [sign @ ("plus" | "positive" | "minus" | "negative" | "plusminus"), rest]
+            if INFINITY.contains(rest) =>
+        {
+            Some(signed(Some(sign)))
+        }
+        [rest @ .., sign @ ("plus" | "positive" | "minus" | "negative" | "plusminus"), last]
+            if INFINITY.contains(last) && GROWS.contains(&rest.join(" ").as_str()) =>
+        {
+            Some(signed(Some(sign)))
+        }
+        [rest @ .., last]
+            if INFINITY.contains(last) && (rest.is_empty() || GROWS.contains(&rest.join(" ").as_str())) =>
+        {
+            Some(FinalValue::Unbounded)
+        }
+        ["no"] | ["there", "no"] => {
+            (flat.contains("limit") || flat.contains("value")).then_some(FinalValue::Unbounded)
+        }
+        words if NO_LIMIT.contains(&words.join(" ").as_str()) => Some(FinalValue::Unbounded),
+        _ => None,
+    }
+}
+
+const FILLERS: &[&str] = &[
+    "it", "its", "the", "a", "an", "is", "to", "towards", "toward", "response", "value", "final", "output",
+    "angle", "and", "hence", "so", "s", "limit", "does", "steady", "state",
+];
+const INFINITY: &[&str] = &["infinity", "inf", "infinite", "oo", "infty"];
+const GROWS: &[&str] = &[
+    "goes",
+    "tends",
+    "grows",
+    "approaches",
+    "diverges",
+    "increases",
+    "decreases",
+    "rises",
+    "falls",
+    "blows up",
+    "becomes",
+    "unbounded",
+];
+const NO_LIMIT: &[&str] = &[
+    "unbounded",
+    "diverges",
+    "diverge",
+    "diverging",
+    "divergent",
+    "not exist",
+    "doesnt exist",
+    "dne",
+    "none exists",
+    "not bounded",
+    "grows without bound",
+    "grows without bounds",
+    "increases without bound",
+    "without bound",
+    "not converge",
+    "doesnt converge",
+    "not settle",
+    "doesnt settle",
+    "not defined",
+    "undefined",
+    "blows up",
+    "unbounded diverges",
+    "diverges unbounded",
+    "grows unbounded",
+    "grows unboundedly",
+];
+
+#[cfg(test)]
+mod tests {
+    use super::super::Decimal;
+    use super::*;
+
+    fn number(text: &str) -> FinalValue {
+        FinalValue::Number(Decimal::parse(text).unwrap())
+    }
+
+    #[test]
+    fn values_and_limits() {
+        use FinalValue::*;
+        for (text, expected) in [
+            ("0", number("0")),
+            ("-0.143", number("-0.143")),
+            ("− 0.143", number("-0.143")),
+            ("1.50", number("1.50")),
+            ("1e-3", number("1e-3")),
+            ("0 rad", number("0")),
+            ("0.2 rad/s", number("0.2")),
+            ("0°", number("0")),
+            ("0 degrees", number("0")),
+            ("≈ 0", number("0")),
+            ("~0", number("0")),
+            ("approximately 0.5", number("0.5")),
+            ("zero", number("0")),
+            ("Zero.", number("0")),
+            ("unbounded", Unbounded),
+            ("Unbounded.", Unbounded),
+            ("∞", Unbounded),
+            ("±∞", Unbounded),
+            ("infinity", Unbounded),
+            ("Infinite", Unbounded),
+            ("inf", Unbounded),
+            (".inf", Unbounded),
+            ("diverges", Unbounded),
+            ("it diverges", Unbounded),
+            ("does not exist", Unbounded),
+            ("doesn't exist", Unbounded),
+            ("the limit does not exist", Unbounded),
+            ("DNE", Unbounded),
+            ("no limit", Unbounded),
+            ("no final value", Unbounded),
+            ("grows without bound", Unbounded),
+            ("goes to infinity", Unbounded),
+            ("unbounded (diverges)", Unbounded),
+            ("+∞", PlusInfinity),
+            ("+ infinity", PlusInfinity),
+            ("positive infinity", PlusInfinity),
+            ("diverges to +∞", PlusInfinity),
+            ("-∞", MinusInfinity),
+            ("−∞", MinusInfinity),
+            ("-.inf", MinusInfinity),
+            ("minus infinity", MinusInfinity),
+            ("it goes to negative infinity", MinusInfinity),
+        ] {
+            assert_eq!(parse_value(text).as_ref(), Ok(&expected), "{text:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_not_a_value_says_how_to_write_it() {
+        for (text, code, marked, help) in [
+            ("0,143", "number.decimal_comma", "0,143", "`0.143`"),
+            ("-0,143", "number.decimal_comma", "0,143", "`-0.143`"),
+            ("about −2,5 rad", "number.decimal_comma", "2,5", "`-2.5`"),
+            ("5 degrees", "value.unit", " degrees", "SI"),
+            ("5 ms", "value.unit", " ms", "SI"),
+            ("5 apples", "value.unreadable", " apples", "number"),
+            ("does not diverge", "value.unreadable", "does not diverge", "number"),
+            ("not infinite", "value.unreadable", "not infinite", "number"),
+            ("no", "value.unreadable", "no", "number"),
+            ("finite", "value.unreadable", "finite", "number"),
+            ("1..2", "value.unreadable", ".2", "number"),
+            ("1e999", "value.unreadable", "1e999", "number"),
+            ("NaN", "value.unreadable", "NaN", "number"),
+            ("", "value.unreadable", "", "number"),
+        ] {
+            let problem = parse_value(text).unwrap_err();
+            assert_eq!(problem.code, code, "{text:?}: {problem:?}");
+            assert_eq!(&text[problem.start..problem.end], marked, "{text:?}");
+            assert!(problem.help.as_deref().is_some_and(|h| h.contains(help)), "{text:?}: {problem:?}");
+            assert!(problem.message.ends_with('.'), "{text:?}: {problem:?}");
+        }
+    }
+}
