@@ -13,9 +13,16 @@ pub enum DecodeError {
 }
 
 /// Bytes as text: UTF-8 with or without a byte order mark, or UTF-16 with one. The mark is dropped.
+///
+/// At most [`MAX_TEXT_BYTES`].
 pub fn decode(bytes: &[u8]) -> Result<String, DecodeError> {
-    if bytes.len() > MAX_TEXT_BYTES {
-        return Err(DecodeError::TooLarge { size: bytes.len(), limit: MAX_TEXT_BYTES });
+    decode_within(bytes, MAX_TEXT_BYTES)
+}
+
+/// Like [`decode`], with another limit on the size.
+pub fn decode_within(bytes: &[u8], limit: usize) -> Result<String, DecodeError> {
+    if bytes.len() > limit {
+        return Err(DecodeError::TooLarge { size: bytes.len(), limit });
     }
     match bytes {
         [0xff, 0xfe, rest @ ..] => decode_utf16(rest, u16::from_le_bytes),

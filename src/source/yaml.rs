@@ -7,7 +7,7 @@ use std::fmt;
 /// A YAML node and where it stands.
 ///
 /// A scalar's span covers its source text, quotes included and a block's `|` left out; the span of a mapping or a sequence
-/// reaches from its start to the end of its last entry. An alias stands where its anchor stands.
+/// reaches from its start to the end of its last entry, or to its closing bracket. An alias stands where its anchor stands.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Node {
     pub value: Value,
@@ -273,7 +273,7 @@ impl IntoNode for Spanned<Raw> {
             }
             Raw::Sequence(items) => {
                 let items: Vec<Node> = items.into_iter().map(|item| item.into_node(source)).collect();
-                let span = cover(span, items.last().map(|item| item.span.end));
+                let span = cover(span, items.last().map(|item| item.span.end), source);
                 Node { value: Value::Sequence(items), span }
             }
             Raw::Mapping(entries) => {
@@ -282,7 +282,8 @@ impl IntoNode for Spanned<Raw> {
                     .map(|(key, value)| (byte_span(key.defined, source), key.value, value))
                     .map(|(key_span, key, value)| (key, key_span, value.into_node(source)))
                     .collect();
-                let span = cover(span, entries.last().map(|(_, key, node)| node.span.end.max(key.end)));
+                let last = entries.last().map(|(_, key, node)| node.span.end.max(key.end));
+                let span = cover(span, last, source);
                 Node { value: Value::Mapping(entries), span }
             }
         }
@@ -305,9 +306,22 @@ impl Node {
     }
 }
 
-/// `span` reaching to the end of the last entry; aliases may stand before it.
-fn cover(span: Span, last: Option<usize>) -> Span {
-    Span { start: span.start, end: span.end.max(last.unwrap_or(span.end)) }
+/// `span` reaching to the end of the last entry (aliases may stand before it), closing bracket included.
+fn cover(span: Span, last: Option<usize>, source: &str) -> Span {
+    let opening = source.get(span.start..).and_then(|rest| rest.chars().next());
+    let closing = match opening {
+        Some('[') => Some(']'),
+        Some('{') => Some('}'),
+        _ => None,
+    };
+    let from = last.unwrap_or(span.start).max(span.start + usize::from(closing.is_some() && last.is_none()));
+    let rest = source.get(from..).unwrap_or_default();
+    let bracket =
+        rest.find(|c: char| !c.is_whitespace() && c != ',').filter(|i| rest[*i..].chars().next() == closing);
+    Span {
+        start: span.start,
+        end: span.end.max(bracket.filter(|_| closing.is_some()).map_or(from, |i| from + i + 1)),
+    }
 }
 
 fn byte_span(location: Location, source: &str) -> Span {
@@ -443,6 +457,22 @@ mod tests {
         check("\u{feff}a: 1\r\nb: ±2\r\n", &[("a:", "a"), ("1", "1"), ("b:", "b"), ("±2", "±2")]);
         check("", &[("<null>", "")]);
         check("# only a comment\n", &[("<null>", "")]);
+    }
+
+    #[test]
+    fn lists_and_mappings_reach_to_their_end() {
+        for (text, expected) in [
+            ("a: [1, 2]", "[1, 2]"),
+            ("a: [1, 2 , ] # x", "[1, 2 , ]"),
+            ("a: []", "[]"),
+            ("a: {}", "{}"),
+            ("a: {b: [1], c: 'x'}", "{b: [1], c: 'x'}"),
+            ("a:\n  - 1\n  - 2\nb: 3", "- 1\n  - 2"),
+            ("a:\n  c: 1\n  d: 2\nb: 3", "c: 1\n  d: 2"),
+        ] {
+            let span = parse(text).unwrap().get("a").unwrap().span;
+            assert_eq!(&text[span.start..span.end], expected, "{text:?}");
+        }
     }
 
     #[test]

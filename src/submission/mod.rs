@@ -6,9 +6,11 @@ mod decimal;
 mod decimal_commas;
 mod figure;
 mod formula;
+mod people;
 mod poles;
 mod problem;
 mod read;
+mod read_as;
 mod self_check;
 mod series;
 mod sheet;
@@ -19,7 +21,13 @@ pub use answer::{
     Answer, AnswerValue, Decimal, Figure, FinalValue, Series, Student, Submission, TypedComplex, Unreadable,
 };
 pub use attachments::{AttachmentError, Attachments, Folder, MAX_ATTACHMENT_BYTES, NoFiles};
-pub use read::read;
+pub use read::{MAX_PROSE_BYTES, read};
 pub use self_check::self_check;
 pub use sheet::{AnswerSheet, Field, FieldKind};
-pub use words::{NonlinearityKind, nonlinearity_word, shape_word, stability_word};
+pub use words::{
+    NonlinearityKind, nonlinearity_name, nonlinearity_word, shape_name, shape_word, stability_name,
+    stability_word,
+};
+
+#[cfg(test)]
+mod tests;
