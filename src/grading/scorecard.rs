@@ -1,5 +1,6 @@
 use crate::lab::Points;
 use crate::source::{Position, Span};
+use std::ops::Add;
 
 /// What became of one criterion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -13,6 +14,20 @@ pub enum Verdict {
     Unreadable,
     /// polemark cannot judge it; a person must.
     Unmarked,
+}
+
+impl Verdict {
+    /// The word tools read: `right`, `partly`, `wrong`, `blank`, `unreadable`, `unmarked`.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Right => "right",
+            Self::Partly => "partly",
+            Self::Wrong => "wrong",
+            Self::Blank => "blank",
+            Self::Unreadable => "unreadable",
+            Self::Unmarked => "unmarked",
+        }
+    }
 }
 
 /// Every verdict for one submission.
@@ -34,6 +49,27 @@ pub struct Tally {
     pub possible: Points,
     /// How many of the earned points wait for a person to confirm them.
     pub provisional: Points,
+}
+
+impl Tally {
+    pub fn of(items: &[ItemScore]) -> Self {
+        Self {
+            earned: items.iter().map(|item| item.earned).sum(),
+            possible: items.iter().map(|item| item.possible).sum(),
+            provisional: items.iter().filter(|item| item.provisional).map(|item| item.earned).sum(),
+        }
+    }
+}
+
+impl Add for Tally {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self {
+            earned: self.earned + other.earned,
+            possible: self.possible + other.possible,
+            provisional: self.provisional + other.provisional,
+        }
+    }
 }
 
 #[derive(Clone, Debug, PartialEq)]

@@ -1,0 +1,65 @@
+use crate::algebra::Rational;
+use crate::lab::SystemRef;
+use crate::reference::{LinearReference, OperatingPointReference, Reference};
+
+/// One accepted set of parameter values, and what follows from it.
+#[derive(Debug)]
+pub(super) struct Accepted<'a, T: ?Sized> {
+    /// Parameters that differ from the lab's own; empty for the lab's own.
+    pub differs: &'a [(String, String, Rational)],
+    pub what: &'a T,
+}
+
+impl<T: ?Sized> Clone for Accepted<'_, T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T: ?Sized> Copy for Accepted<'_, T> {}
+
+impl<T: ?Sized> Accepted<'_, T> {
+    /// ` with g = 9.8`, or nothing for the lab's own values.
+    pub fn with(&self) -> String {
+        if self.differs.is_empty() {
+            return String::new();
+        }
+        let values: Vec<_> = self.differs.iter().map(|(name, text, _)| format!("{name} = {text}")).collect();
+        format!(" with {}", values.join(", "))
+    }
+}
+
+/// What is said after the expected answer when other parameter values are accepted too.
+pub(super) fn also<T: ?Sized>(accepted: &[Accepted<'_, T>]) -> String {
+    let others: Vec<_> = accepted
+        .iter()
+        .filter(|one| !one.differs.is_empty())
+        .map(|one| one.with().trim_start_matches(" with ").to_owned())
+        .collect();
+    match others.split_last() {
+        None => String::new(),
+        Some((only, [])) => format!(" What follows from {only} is accepted too."),
+        Some((last, rest)) => format!(" What follows from {} or {last} is accepted too.", rest.join(", ")),
+    }
+}
+
+pub(super) fn operating_point<'a>(
+    reference: &'a Reference,
+    of: &SystemRef,
+) -> Option<&'a OperatingPointReference> {
+    let model = reference.models.iter().find(|model| model.id == of.model)?;
+    model.operating_points.iter().find(|point| point.id == of.operating_point)
+}
+
+/// `pick` of every accepted set of parameter values, the lab's own first; none when the reference does not know `of`.
+pub(super) fn accepted<'a, T: ?Sized>(
+    reference: &'a Reference,
+    of: &SystemRef,
+    pick: impl Fn(&'a LinearReference) -> &'a T,
+) -> Vec<Accepted<'a, T>> {
+    operating_point(reference, of)
+        .map(|point| {
+            point.accepted.iter().map(|one| Accepted { differs: &one.differs, what: pick(one) }).collect()
+        })
+        .unwrap_or_default()
+}

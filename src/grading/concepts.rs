@@ -1,0 +1,241 @@
+use super::mark::{Mark, share};
+use super::phrase::Phrase;
+use super::prose::{Token, sentences};
+use super::{Evidence, PhraseMatch, Stance, Verdict};
+use crate::algebra::Rational;
+use crate::lab::{Concept, Points};
+use crate::source::Span;
+
+/// What prose should say, in words.
+pub(super) fn expected(concepts: &[Concept], needed: usize) -> String {
+    let titles: Vec<_> = concepts.iter().map(|concept| concept.title.as_str()).collect();
+    let needed = needed_of(concepts, needed);
+    if needed == titles.len() {
+        format!("It says: {}.", titles.join("; "))
+    } else {
+        format!("It says at least {needed} of: {}.", titles.join("; "))
+    }
+}
+
+fn needed_of(concepts: &[Concept], needed: usize) -> usize {
+    needed.clamp(1, concepts.len().max(1))
+}
+
+/// Prose by the concepts it states. Always provisional: words are evidence of a thought, not the thought.
+///
+/// A concept counts when it is claimed and nowhere denied, half when it is both; a contradiction that is claimed takes all.
+pub(super) fn judge(
+    points: Points,
+    concepts: &[Concept],
+    needed: usize,
+    contradictions: &[Concept],
+    prose: &str,
+) -> Mark {
+    let expected = expected(concepts, needed);
+    let read = sentences(prose);
+    if read.is_empty() {
+        return Mark::blank(expected);
+    }
+    let said: Vec<(&Concept, Vec<PhraseMatch>)> =
+        concepts.iter().map(|concept| (concept, matches(concept, &read))).collect();
+    let against: Vec<PhraseMatch> = contradictions
+        .iter()
+        .flat_map(|concept| matches(concept, &read))
+        .filter(|found| found.stance == Stance::Claims)
+        .map(|found| PhraseMatch { stance: Stance::Denies, ..found })
+        .collect();
+    let mut phrases: Vec<PhraseMatch> = said.iter().flat_map(|(_, found)| found.clone()).collect();
+    phrases.extend(against.iter().cloned());
+    phrases.sort_by_key(|found| found.span);
+    let evidence = |reason: String| Evidence {
+        expected: expected.clone(),
+        found: found_in_words(&phrases, prose),
+        reason,
+        phrases: phrases.clone(),
+    };
+    if !against.is_empty() {
+        let reason = format!("It says {}, which is not so.", quotations(&against, prose));
+        return provisional(Mark::wrong("concepts.contradicted", evidence(reason)));
+    }
+
+    let states: Vec<(&Concept, State)> =
+        said.iter().map(|(concept, found)| (*concept, State::of(found))).collect();
+    let titles = |wanted: State| -> Vec<&str> {
+        states
+            .iter()
+            .filter(|(_, state)| *state == wanted)
+            .map(|(concept, _)| concept.title.as_str())
+            .collect()
+    };
+    let (claimed, both, denied) = (titles(State::Claimed), titles(State::Both), titles(State::Denied));
+    let needed = needed_of(concepts, needed);
+    let halves = 2 * claimed.len() + both.len();
+    let part = Rational::from(halves as u64) / Rational::from(2 * needed as u64);
+
+    let mut reason = Vec::new();
+    for (titles, words) in [
+        (&claimed, "It says that"),
+        (&both, "It both says and denies that"),
+        (&denied, "It denies that"),
+        (&titles(State::Missing), "We did not find that"),
+    ] {
+        if !titles.is_empty() && !(words.starts_with("We") && halves >= 2 * needed) {
+            reason.push(format!("{words} {}.", titles.join("; ")));
+        }
+    }
+    let evidence = evidence(reason.join(" "));
+    provisional(if halves >= 2 * needed {
+        Mark { code: "concepts.found", ..Mark::right(points, evidence) }
+    } else if halves > 0 {
+        let code = if both.is_empty() { "concepts.missing" } else { "concepts.both_ways" };
+        Mark::partly(code, share(points, &part), evidence)
+    } else if denied.is_empty() {
+        Mark::wrong("concepts.missing", evidence)
+    } else {
+        Mark::wrong("concepts.denied", evidence)
+    })
+}
+
+fn provisional(mark: Mark) -> Mark {
+    Mark { provisional: mark.verdict != Verdict::Blank, ..mark }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum State {
+    Claimed,
+    Denied,
+    Both,
+    Missing,
+}
+
+impl State {
+    fn of(found: &[PhraseMatch]) -> Self {
+        let has = |stance| found.iter().any(|one| one.stance == stance);
+        match (has(Stance::Claims), has(Stance::Denies)) {
+            (true, true) => Self::Both,
+            (true, false) => Self::Claimed,
+            (false, true) => Self::Denied,
+            (false, false) => Self::Missing,
+        }
+    }
+}
+
+/// Every place where a phrase of `concept` is said, the longer phrase where one stands within another, in text order.
+fn matches(concept: &Concept, sentences: &[Vec<Token>]) -> Vec<PhraseMatch> {
+    let mut found: Vec<PhraseMatch> = Vec::new();
+    for phrase in concept.phrases.iter().map(|phrase| Phrase::new(phrase)) {
+        for said in sentences.iter().flat_map(|sentence| phrase.said_in(sentence)) {
+            let stance = if said.denied { Stance::Denies } else { Stance::Claims };
+            found.push(PhraseMatch { span: said.span, concept: concept.title.clone(), stance });
+        }
+    }
+    let length = |span: Span| span.end - span.start;
+    // Longest first; of equal ones the claim, since the phrase that claims holds the `not` in itself.
+    found.sort_by_key(|one| (usize::MAX - length(one.span), one.span, one.stance == Stance::Denies));
+    let mut kept: Vec<PhraseMatch> = Vec::new();
+    for one in found {
+        let covered =
+            kept.iter().any(|long| long.span.start <= one.span.start && one.span.end <= long.span.end);
+        if !covered {
+            kept.push(one);
+        }
+    }
+    kept.sort_by_key(|one| one.span);
+    kept
+}
+
+fn found_in_words(phrases: &[PhraseMatch], prose: &str) -> String {
+    if phrases.is_empty() { "None of the words we look for.".to_owned() } else { quotations(phrases, prose) }
+}
+
+/// `“swings about”, “dies away”`, each once.
+fn quotations(phrases: &[PhraseMatch], prose: &str) -> String {
+    let mut quoted: Vec<String> = Vec::new();
+    for found in phrases {
+        let words = prose.get(found.span.start..found.span.end).unwrap_or_default();
+        let one = format!("“{}”", words.split_whitespace().collect::<Vec<_>>().join(" "));
+        if !quoted.contains(&one) {
+            quoted.push(one);
+        }
+    }
+    quoted.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn concept(id: &str, title: &str, phrases: &[&str]) -> Concept {
+        Concept {
+            id: id.into(),
+            title: title.into(),
+            phrases: phrases.iter().map(|p| (*p).to_owned()).collect(),
+        }
+    }
+
+    fn pendulum() -> Vec<Concept> {
+        vec![
+            concept("oscillates", "it oscillates", &["oscillat*", "swings"]),
+            concept("settles", "it comes to rest", &["settles", "comes to rest", "dies out"]),
+            concept("period", "its period is about 1.1 s", &["1.1 s"]),
+        ]
+    }
+
+    #[track_caller]
+    fn check(needed: usize, rows: &[(&str, i64, Verdict, &str)]) {
+        let contradictions =
+            [concept("forever", "it rotates for ever", &["rotat* indefinitely", "rotat* forever"])];
+        for (text, points, verdict, code) in rows {
+            let mark = judge(Points(100), &pendulum(), needed, &contradictions, text);
+            let got = (mark.earned, mark.verdict, mark.code);
+            assert_eq!(got, (Points(*points), *verdict, *code), "{text:?}: {}", mark.evidence.reason);
+            assert_eq!(mark.provisional, *verdict != Verdict::Blank, "{text:?}");
+        }
+    }
+
+    #[test]
+    fn concepts_are_counted() {
+        use Verdict::*;
+        check(
+            2,
+            &[
+                // answer, points, verdict, code
+                ("It oscillates and comes to rest.", 100, Right, "concepts.found"),
+                ("It oscillates with 1.1 s.", 100, Right, "concepts.found"),
+                ("It swings, and the swing dies out; period 1.1 s", 100, Right, "concepts.found"),
+                ("It swings.", 50, Partly, "concepts.missing"),
+                ("It falls.", 0, Wrong, "concepts.missing"),
+                ("It does not oscillate.", 0, Wrong, "concepts.denied"),
+                ("It oscillates. It does not oscillate. It settles.", 75, Partly, "concepts.both_ways"),
+                ("It oscillates but will rotate indefinitely.", 0, Wrong, "concepts.contradicted"),
+                (
+                    "It oscillates and comes to rest; it does not rotate forever.",
+                    100,
+                    Right,
+                    "concepts.found",
+                ),
+                ("", 0, Blank, "blank"),
+                (" \n \u{200b}", 0, Blank, "blank"),
+            ],
+        );
+        check(3, &[("It oscillates and settles.", 67, Partly, "concepts.missing")]);
+        check(9, &[("It swings, settles, 1.1 s", 100, Right, "concepts.found")]);
+    }
+
+    #[test]
+    fn the_longer_phrase_decides() {
+        let differs = [concept("compares", "it compares", &["match*", "does not match"])];
+        let mark = judge(Points(100), &differs, 1, &[], "It does not match.");
+        assert_eq!((mark.earned, mark.code), (Points(100), "concepts.found"));
+        assert_eq!(mark.evidence.found, "“does not match”");
+    }
+
+    #[test]
+    fn the_words_are_shown() {
+        let text = "Es ist klar: it  oscillates,\nand dies out.";
+        let mark = judge(Points(100), &pendulum(), 2, &[], text);
+        let words: Vec<_> =
+            mark.evidence.phrases.iter().map(|found| &text[found.span.start..found.span.end]).collect();
+        assert_eq!(words, ["oscillates", "dies out"]);
+    }
+}

@@ -1,0 +1,308 @@
+use super::Verdict;
+use super::mark::Mark;
+use crate::algebra::{Rational, parse_decimal};
+use crate::lab::{CoverSource, LabDefinition, Points};
+use crate::source::{self, Finding, Node, Severity, SourceText, Span, Value, sanitize};
+use std::collections::BTreeMap;
+
+/// What a person gave one student. Nothing here is ever written by polemark.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub struct HandMarks {
+    /// Boxes of the cover sheet that are filled by hand, by row id.
+    pub cover: BTreeMap<String, Points>,
+    /// Rows of the observation sheet, by row id.
+    pub observed: BTreeMap<String, Points>,
+    /// Criteria whose mark a person has decided, by criterion id.
+    pub items: BTreeMap<String, Override>,
+}
+
+/// A mark by a person, and why.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Override {
+    pub points: Points,
+    pub reason: String,
+}
+
+impl Override {
+    /// The mark with the person's points; what polemark saw stays as evidence.
+    pub(super) fn apply(&self, possible: Points, mark: Mark) -> Mark {
+        let verdict = match self.points {
+            points if points >= possible => Verdict::Right,
+            Points::ZERO => Verdict::Wrong,
+            _ => Verdict::Partly,
+        };
+        Mark { verdict, code: "by_hand", earned: self.points, provisional: false, ..mark }
+    }
+}
+
+/// A marks file: what a person gave, by student id.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub struct HandMarksFile {
+    students: BTreeMap<String, HandMarks>,
+}
+
+impl HandMarksFile {
+    pub fn student(&self, id: &str) -> Option<&HandMarks> {
+        self.students.get(id)
+    }
+
+    /// In alphabetical order.
+    pub fn student_ids(&self) -> impl Iterator<Item = &str> {
+        self.students.keys().map(String::as_str)
+    }
+}
+
+impl HandMarks {
+    /// Reads a marks file: what could be read, and a finding for everything that could not or that does not fit `lab`.
+    ///
+    /// ```yaml
+    /// lab: ee361-lab3
+    /// students:
+    ///   EE-001:
+    ///     viva: 30
+    ///     observed: {realization: 4}
+    ///     items:
+    ///       hanging.response.plot: {points: 0.5, reason: "axes without units"}
+    /// ```
+    pub fn parse(source: &SourceText, lab: &LabDefinition) -> (HandMarksFile, Vec<Finding>) {
+        let mut reader = Reader { allowed: Allowed::new(lab), findings: Vec::new() };
+        let file = match source::parse(&source.text) {
+            Ok(node) => reader.file(&node),
+            Err(error) => {
+                reader.report(
+                    error.span,
+                    "marks.yaml",
+                    format!("This marks file is not YAML: {}.", error.message),
+                    None,
+                );
+                HandMarksFile::default()
+            }
+        };
+        (file, reader.findings)
+    }
+}
+
+/// What may be given, and how many points at most.
+struct Allowed<'a> {
+    lab: &'a str,
+    cover: BTreeMap<&'a str, Points>,
+    observed: BTreeMap<&'a str, Points>,
+    items: BTreeMap<&'a str, Points>,
+}
+
+impl<'a> Allowed<'a> {
+    fn new(lab: &'a LabDefinition) -> Self {
+        let by_hand = lab.cover.rows.iter().filter(|row| row.from == CoverSource::ByHand);
+        let criteria = lab.questions.iter().flat_map(|question| &question.criteria);
+        Self {
+            lab: &lab.id,
+            cover: by_hand.map(|row| (row.id.as_str(), row.points)).collect(),
+            observed: lab.observed.iter().map(|row| (row.id.as_str(), row.points)).collect(),
+            items: criteria.map(|criterion| (criterion.id.as_str(), criterion.points)).collect(),
+        }
+    }
+}
+
+struct Reader<'a> {
+    allowed: Allowed<'a>,
+    findings: Vec<Finding>,
+}
+
+impl Reader<'_> {
+    fn report(&mut self, span: Option<Span>, code: &'static str, message: String, help: Option<String>) {
+        self.findings.push(Finding { severity: Severity::Error, code, message, help, span });
+    }
+
+    fn file(&mut self, node: &Node) -> HandMarksFile {
+        let mut file = HandMarksFile::default();
+        for (key, span, value) in self.mapping(node, "A marks file has the keys `lab` and `students`.") {
+            match key.as_str() {
+                "lab" => self.lab(value),
+                "students" => {
+                    for (id, span, marks) in
+                        self.mapping(value, "Under `students` stand ids, each with its marks.")
+                    {
+                        let marks = self.student(marks);
+                        if file.students.insert(id.clone(), marks).is_some() {
+                            self.report(
+                                Some(*span),
+                                "marks.twice",
+                                format!("{} has marks twice; the later ones would count.", quoted(id)),
+                                Some("Put them together.".to_owned()),
+                            );
+                        }
+                    }
+                }
+                _ => self.unknown(key, *span, &["lab", "students"], "key"),
+            }
+        }
+        file
+    }
+
+    fn lab(&mut self, node: &Node) {
+        match &node.value {
+            Value::Scalar(lab) if lab == self.allowed.lab => {}
+            Value::Scalar(lab) => {
+                let message = format!("These marks are for {}, not for `{}`.", quoted(lab), self.allowed.lab);
+                self.report(Some(node.span), "marks.lab", message, None);
+            }
+            _ => self.report(Some(node.span), "marks.lab", "`lab` is the lab's id.".to_owned(), None),
+        }
+    }
+
+    fn student(&mut self, node: &Node) -> HandMarks {
+        let mut marks = HandMarks::default();
+        for (key, span, value) in
+            self.mapping(node, "A student's marks are keys such as `observed` and `items`.")
+        {
+            let by_hand = self.allowed.cover.get(key.as_str()).copied();
+            match (key.as_str(), by_hand) {
+                (_, Some(most)) => {
+                    if let Some(points) = self.points(value, most, key) {
+                        marks.cover.insert(key.clone(), points);
+                    }
+                }
+                ("observed", _) => {
+                    let known = self.allowed.observed.keys().map(|id| (*id).to_owned()).collect::<Vec<_>>();
+                    for (row, span, value) in
+                        self.mapping(value, "Under `observed` stand rows with their points.")
+                    {
+                        match self.allowed.observed.get(row.as_str()).copied() {
+                            None => self.unknown(row, *span, &known, "row of the observation sheet"),
+                            Some(most) => {
+                                if let Some(points) = self.points(value, most, row) {
+                                    marks.observed.insert(row.clone(), points);
+                                }
+                            }
+                        }
+                    }
+                }
+                ("items", _) => {
+                    let known = self.allowed.items.keys().map(|id| (*id).to_owned()).collect::<Vec<_>>();
+                    for (item, span, value) in
+                        self.mapping(value, "Under `items` stand criteria with points and a reason.")
+                    {
+                        match self.allowed.items.get(item.as_str()).copied() {
+                            None => self.unknown(item, *span, &known, "criterion"),
+                            Some(most) => {
+                                if let Some(given) = self.item(value, *span, most, item) {
+                                    marks.items.insert(item.clone(), given);
+                                }
+                            }
+                        }
+                    }
+                }
+                _ => {
+                    let mut known = vec!["observed", "items"];
+                    known.extend(self.allowed.cover.keys());
+                    let known: Vec<String> = known.into_iter().map(str::to_owned).collect();
+                    self.unknown(key, *span, &known, "key");
+                }
+            }
+        }
+        marks
+    }
+
+    fn item(&mut self, node: &Node, at: Span, most: Points, id: &str) -> Option<Override> {
+        let (mut points, mut reason) = (None, None);
+        let mut given = false;
+        for (key, span, value) in self.mapping(node, "A criterion takes `{points: 1.5, reason: \"why\"}`.") {
+            match (key.as_str(), &value.value) {
+                ("points", _) => {
+                    given = true;
+                    points = self.points(value, most, id);
+                }
+                ("reason", Value::Scalar(text)) => {
+                    reason = Some(text.trim().to_owned()).filter(|text| !text.is_empty())
+                }
+                ("reason", _) => {}
+                _ => self.unknown(key, *span, &["points", "reason"], "key"),
+            }
+        }
+        if !given && matches!(node.value, Value::Mapping(_)) {
+            let message = format!("The points for `{id}` are missing.");
+            self.report(Some(at), "marks.points_missing", message, Some("Write `points: 1.5`.".to_owned()));
+        }
+        if reason.is_none() && matches!(node.value, Value::Mapping(_)) {
+            let message = format!("The reason for the mark of `{id}` is missing; the student will read it.");
+            self.report(
+                Some(at),
+                "marks.reason_missing",
+                message,
+                Some("Write `reason: \"why\"`.".to_owned()),
+            );
+        }
+        Some(Override { points: points?, reason: reason? })
+    }
+
+    fn points(&mut self, node: &Node, most: Points, id: &str) -> Option<Points> {
+        let Value::Scalar(text) = &node.value else {
+            let message = format!("The points for `{id}` are a number.");
+            self.report(Some(node.span), "marks.points_unreadable", message, None);
+            return None;
+        };
+        let hundredths = parse_decimal(text.trim()).ok().map(|value| value * Rational::from(100));
+        let points = hundredths
+            .filter(Rational::is_int)
+            .and_then(|value| i64::try_from(value.floor()).ok())
+            .map(Points);
+        match points {
+            None => {
+                let message = format!("{} is not a number of points in steps of a hundredth.", quoted(text));
+                self.report(
+                    Some(node.span),
+                    "marks.points_unreadable",
+                    message,
+                    Some("Write `1.5`, say.".to_owned()),
+                );
+            }
+            Some(points) if points < Points::ZERO || points > most => {
+                let message = format!("{points} points for `{id}` are not between 0 and {most}.");
+                self.report(Some(node.span), "marks.points_out_of_range", message, None);
+            }
+            Some(points) => return Some(points),
+        }
+        None
+    }
+
+    /// The entries of a mapping; nothing, with a finding, for anything else. An empty place is an empty mapping.
+    fn mapping<'n>(&mut self, node: &'n Node, wanted: &str) -> &'n [(String, Span, Node)] {
+        match &node.value {
+            Value::Mapping(entries) => entries,
+            Value::Null => &[],
+            _ => {
+                self.report(Some(node.span), "marks.shape", wanted.to_owned(), None);
+                &[]
+            }
+        }
+    }
+
+    fn unknown(&mut self, name: &str, span: Span, known: &[impl AsRef<str>], what: &str) {
+        let help = match nearest(name, known) {
+            Some(near) => format!("Did you mean `{near}`?"),
+            None if known.is_empty() => "This lab has none.".to_owned(),
+            None => {
+                let names: Vec<_> = known.iter().take(12).map(|one| format!("`{}`", one.as_ref())).collect();
+                let more = if known.len() > 12 { " and others" } else { "" };
+                format!("There are {}{more}.", names.join(", "))
+            }
+        };
+        self.report(Some(span), "marks.unknown", format!("There is no {what} {}.", quoted(name)), Some(help));
+    }
+}
+
+fn quoted(text: &str) -> String {
+    format!("`{}`", sanitize(text))
+}
+
+/// The known name a mistyped one stands for: at most a third of its letters wrong.
+fn nearest<'k>(name: &str, known: &'k [impl AsRef<str>]) -> Option<&'k str> {
+    let name = name.to_lowercase();
+    known
+        .iter()
+        .map(AsRef::as_ref)
+        .map(|one| (strsim::damerau_levenshtein(&name, &one.to_lowercase()), one))
+        .filter(|(distance, one)| *distance * 3 <= one.chars().count().max(name.chars().count()))
+        .min()
+        .map(|(_, one)| one)
+}

@@ -1,0 +1,479 @@
+//! Where prose says a phrase, and whether it says so or denies it.
+
+use super::prose::{Gap, Token, words};
+use crate::source::Span;
+
+/// Words that may stand between two words of a phrase.
+const BETWEEN: usize = 3;
+
+/// A phrase of a lab: `does not respond`, `oscillat*`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Phrase {
+    words: Vec<PhraseWord>,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct PhraseWord {
+    text: String,
+    /// `stem*`: the beginning of a word.
+    stem: bool,
+}
+
+impl PhraseWord {
+    fn matches(&self, token: &Token) -> bool {
+        if self.stem { token.text.starts_with(&self.text) } else { token.text == self.text }
+    }
+}
+
+/// A phrase said in one sentence: from the first to the last of its words.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Said {
+    pub span: Span,
+    pub denied: bool,
+}
+
+impl Phrase {
+    /// Split like the prose it is looked for in, so that `doesn't` and `does not` are one.
+    pub fn new(text: &str) -> Self {
+        let mut all = Vec::new();
+        for piece in text.split_whitespace() {
+            let (piece, stem) = piece.strip_suffix('*').map_or((piece, false), |stem| (stem, true));
+            let first = all.len();
+            all.extend(words(piece).into_iter().map(|token| PhraseWord { text: token.text, stem: false }));
+            if all.len() > first
+                && let Some(last) = all.last_mut()
+            {
+                last.stem = stem;
+            }
+        }
+        Self { words: all }
+    }
+
+    /// Every place where `sentence` says the phrase: its words in order, at most [`BETWEEN`] others between two of them.
+    pub fn said_in(&self, sentence: &[Token]) -> Vec<Said> {
+        let mut found = Vec::new();
+        let mut start = 0;
+        while start < sentence.len() {
+            match self.places(sentence, start) {
+                Some(places) if !places.is_empty() => {
+                    let (first, last) = (places[0], places[places.len() - 1]);
+                    let span = Span { start: sentence[first].span.start, end: sentence[last].span.end };
+                    match stance(sentence, &places) {
+                        Stance::Claimed => found.push(Said { span, denied: false }),
+                        Stance::Denied => found.push(Said { span, denied: true }),
+                        Stance::Neither => {}
+                    }
+                    start = first + 1;
+                }
+                _ => start += 1,
+            }
+        }
+        found
+    }
+
+    /// The places of the phrase's words when it begins at `start`, ending as early as it can; `None` when it is not there.
+    fn places(&self, sentence: &[Token], start: usize) -> Option<Vec<usize>> {
+        // reach[k]: for each place where word k can stand, the place of word k − 1 before it.
+        let mut reach: Vec<Vec<(usize, usize)>> = Vec::new();
+        for (k, word) in self.words.iter().enumerate() {
+            let mut here = Vec::new();
+            match k.checked_sub(1).and_then(|before| reach.get(before)) {
+                None => {
+                    if sentence.get(start).is_some_and(|token| word.matches(token)) {
+                        here.push((start, start));
+                    }
+                }
+                Some(before) => {
+                    for (from, _) in before {
+                        let end = (from + BETWEEN + 2).min(sentence.len());
+                        for (place, token) in sentence.iter().enumerate().take(end).skip(from + 1) {
+                            if word.matches(token) && here.iter().all(|(known, _)| *known != place) {
+                                here.push((place, *from));
+                            }
+                        }
+                    }
+                }
+            }
+            if here.is_empty() {
+                return None;
+            }
+            reach.push(here);
+        }
+        let mut places = Vec::new();
+        let mut place = reach.last()?.iter().map(|(place, _)| *place).min()?;
+        for here in reach.iter().rev() {
+            places.push(place);
+            place = here.iter().find(|(known, _)| *known == place).map(|(_, from)| *from)?;
+        }
+        places.reverse();
+        Some(places)
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stance {
+    Claimed,
+    Denied,
+    /// `does not oscillate for ever`: denies how long, not that it does.
+    Neither,
+}
+
+/// How far before a phrase a denial reaches, in words between.
+const FAR: usize = 6;
+
+/// Words that deny what follows them within so many words.
+const DENIALS: &[(&str, usize)] = &[
+    ("not", FAR),
+    ("never", FAR),
+    ("neither", FAR),
+    ("nor", FAR),
+    ("nobody", FAR),
+    ("nothing", FAR),
+    ("no", 2),
+    ("none", 3),
+    ("without", 1),
+    ("hardly", 2),
+    ("scarcely", 2),
+    ("barely", 2),
+    ("non", 0),
+    ("un", 0),
+    ("fails", 2),
+    ("fail", 2),
+    ("failed", 2),
+    ("failing", 2),
+    ("unable", 2),
+    ("refuses", 2),
+    ("lack", 2),
+    ("lacks", 2),
+    ("absence", 2),
+    ("impossible", 3),
+];
+/// Pairs that deny what follows.
+const DENIAL_PAIRS: &[(&str, &str, usize)] = &[
+    ("rather", "than", 3),
+    ("instead", "of", 3),
+    ("far", "from", 2),
+    ("free", "of", 2),
+    ("free", "from", 2),
+];
+/// After these, `not` and `no` deny nothing: `not only`, `no doubt`.
+const NO_DENIAL_BEFORE: &[&str] =
+    &["only", "just", "merely", "simply", "doubt", "sooner", "matter", "surprise"];
+/// Denied with one of these, it is the extent that is denied.
+const EXTENTS: &[&str] = &[
+    "forever",
+    "ever",
+    "always",
+    "indefinitely",
+    "endlessly",
+    "infinitely",
+    "permanently",
+    "constantly",
+    "long",
+    "immediately",
+    "completely",
+    "entirely",
+    "fully",
+    "exactly",
+    "perfectly",
+    "quite",
+    "necessarily",
+];
+/// Words that begin a clause of their own.
+const CLAUSE_WORDS: &[&str] = &[
+    "but",
+    "however",
+    "although",
+    "though",
+    "whereas",
+    "while",
+    "because",
+    "since",
+    "yet",
+    "unless",
+    "until",
+    "till",
+    "when",
+    "where",
+    "if",
+    "which",
+    "that",
+    "who",
+    "as",
+    "then",
+    "so",
+    "therefore",
+    "thus",
+    "hence",
+    "instead",
+];
+/// After `and`, these begin a clause with a subject or a verb of its own.
+const FRESH_STARTS: &[&str] = &[
+    "they",
+    "the",
+    "a",
+    "an",
+    "then",
+    "we",
+    "there",
+    "will",
+    "would",
+    "can",
+    "could",
+    "finally",
+    "eventually",
+    "both",
+    "he",
+    "she",
+    "i",
+    "one",
+    "after",
+    "later",
+    "now",
+    "even",
+];
+/// Verbs that may come between a noun and its `not`.
+const AUXILIARIES: &[&str] = &[
+    "is", "are", "was", "were", "be", "do", "does", "did", "will", "would", "can", "could", "has", "have",
+    "had", "may", "should", "must",
+];
+
+fn stance(sentence: &[Token], places: &[usize]) -> Stance {
+    let (Some(&first), Some(&last)) = (places.first(), places.last()) else { return Stance::Claimed };
+    let within =
+        (first..last).filter(|place| !places.contains(place) && denies_within(sentence, *place)).count();
+    let before = denials_before(sentence, first);
+    let after = usize::from(denied_after(sentence, last));
+    if (before + within + after) % 2 == 0 {
+        return Stance::Claimed;
+    }
+    let extent = |place: usize| {
+        !places.contains(&place)
+            && sentence.get(place).is_some_and(|token| EXTENTS.contains(&token.text.as_str()))
+    };
+    let near_after = (last + 1..=last + 2)
+        .take_while(|&place| sentence.get(place).is_some_and(|token| token.gap < Gap::Break));
+    let just_before = first.checked_sub(1).is_some_and(extent);
+    if just_before || near_after.into_iter().any(extent) || (first..last).any(extent) {
+        Stance::Neither
+    } else {
+        Stance::Denied
+    }
+}
+
+/// A denial between the words of the phrase: `comes not to rest`.
+fn denies_within(sentence: &[Token], place: usize) -> bool {
+    let word = sentence[place].text.as_str();
+    matches!(word, "not" | "never" | "no" | "nor" | "without") && !excused(sentence, place)
+}
+
+/// `not only`, `no doubt`.
+fn excused(sentence: &[Token], place: usize) -> bool {
+    sentence.get(place + 1).is_some_and(|next| NO_DENIAL_BEFORE.contains(&next.text.as_str()))
+}
+
+/// How many denials in the clause before `first` reach it.
+fn denials_before(sentence: &[Token], first: usize) -> usize {
+    let start = clause_start(sentence, first);
+    (start..first)
+        .filter(|&place| {
+            let between = first - place - 1;
+            let word = sentence[place].text.as_str();
+            let single = DENIALS.iter().any(|(denial, reach)| *denial == word && between <= *reach);
+            let pair = place > start
+                && DENIAL_PAIRS.iter().any(|(one, two, reach)| {
+                    *one == sentence[place - 1].text && *two == word && between <= *reach
+                });
+            (single && !excused(sentence, place)) || pair
+        })
+        .count()
+}
+
+/// Where the clause that contains `place` begins.
+fn clause_start(sentence: &[Token], place: usize) -> usize {
+    let mut start = place;
+    while start > 0 {
+        let token = &sentence[start];
+        match token.gap {
+            Gap::Break | Gap::Sentence => return start,
+            Gap::Comma => match parenthesis(sentence, start) {
+                // `does not, in general, oscillate`
+                Some(opened) => {
+                    start = opened;
+                    continue;
+                }
+                None => return start,
+            },
+            Gap::Space => {}
+        }
+        if CLAUSE_WORDS.contains(&token.text.as_str()) && !forms_pair(sentence, start) {
+            return start;
+        }
+        if token.text == "and" && start < place && begins_afresh(&sentence[start + 1].text) {
+            return start;
+        }
+        start -= 1;
+    }
+    0
+}
+
+/// `instead of` and `rather than` deny, they do not begin a clause.
+fn forms_pair(sentence: &[Token], place: usize) -> bool {
+    let next = sentence.get(place + 1).map(|token| token.text.as_str());
+    DENIAL_PAIRS.iter().any(|(one, two, _)| *one == sentence[place].text && Some(*two) == next)
+}
+
+/// A comma before `place` that closes a remark of a few words, opened by another comma right after a denial: where that
+/// comma's word stands.
+fn parenthesis(sentence: &[Token], place: usize) -> Option<usize> {
+    let opened = (1..place).rev().take(4).find(|&other| sentence[other].gap == Gap::Comma)?;
+    let denial = &sentence[opened - 1].text;
+    DENIALS.iter().any(|(word, _)| word == denial).then_some(opened - 1)
+}
+
+/// After `does not oscillate and …`: whether a new clause begins (`and it settles`, `and comes to rest`), or the denial goes
+/// on (`and settle`).
+fn begins_afresh(next: &str) -> bool {
+    next.ends_with('s') || next.ends_with("ed") || next == "it" || FRESH_STARTS.contains(&next)
+}
+
+/// `oscillation is not seen`, `oscillations never occur`.
+fn denied_after(sentence: &[Token], last: usize) -> bool {
+    let word = |place: usize| {
+        sentence.get(place).filter(|token| token.gap == Gap::Space).map_or("", |token| token.text.as_str())
+    };
+    let denial = |place: usize| {
+        (matches!(word(place), "not" | "never" | "absent" | "impossible") && !excused(sentence, place))
+            || (word(place) == "no" && word(place + 1) == "longer")
+    };
+    if AUXILIARIES.contains(&word(last + 1)) {
+        // `is not … ` but not `is not only …`; a double denial is rare enough to be left to the person who confirms.
+        return denial(last + 2);
+    }
+    word(last + 1) == "never"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::prose::sentences;
+    use super::*;
+
+    #[track_caller]
+    fn check(phrase: &str, rows: &[(&str, &str)]) {
+        let phrase = Phrase::new(phrase);
+        for (text, want) in rows {
+            let said: Vec<_> = sentences(text).iter().flat_map(|sentence| phrase.said_in(sentence)).collect();
+            let found: Vec<_> = said
+                .iter()
+                .map(|said| {
+                    format!(
+                        "{}{}",
+                        if said.denied { "-" } else { "+" },
+                        &text[said.span.start..said.span.end]
+                    )
+                })
+                .collect();
+            assert_eq!(found.join(" "), *want, "{text:?}");
+        }
+    }
+
+    #[test]
+    fn words_in_order_with_a_few_between() {
+        check(
+            "swings about",
+            &[
+                ("It swings about the bottom.", "+swings about"),
+                ("It swings back and forth about it.", "+swings back and forth about"),
+                ("It swings to the left and right about it.", ""),
+                ("About it, it swings.", ""),
+                ("It swings. About that.", ""),
+                ("Swings, swings about", "+Swings, swings about +swings about"),
+            ],
+        );
+        check(
+            "oscillat*",
+            &[
+                ("It oscillates; an oscillation", "+oscillates +oscillation"),
+                ("Self-oscillating", "+oscillating"),
+                ("oscil", ""),
+            ],
+        );
+        check("stable", &[("It is unstable.", ""), ("It is stable.", "+stable"), ("UNSTABLE", "")]);
+        check("unstable", &[("It is not stable.", "")]);
+        check(
+            "not stable",
+            &[("It is not stable.", "+not stable"), ("It isn't very stable.", "+isn't very stable")],
+        );
+        check("dead zone", &[("the dead-zone", "+dead-zone"), ("the deadzone", "")]);
+        check("", &[("anything", "")]);
+    }
+
+    #[test]
+    fn a_claim_and_its_denial_are_told_apart() {
+        check(
+            "settl*",
+            &[
+                // text, stance
+                ("It settles.", "+settles"),
+                ("It does not settle.", "-settle"),
+                ("It doesn't ever really settle.", "-settle"),
+                ("It never settles.", "-settles"),
+                ("It fails to settle.", "-settle"),
+                ("It will oscillate without settling.", "-settling"),
+                ("The motor without the gear quickly settles.", "+settles"),
+                ("It neither grows nor settles.", "+settles"),
+                ("It keeps going rather than settling.", "-settling"),
+                ("It goes on instead of settling.", "-settling"),
+                ("It is not true that it settles.", "+settles"),
+                // double denial
+                ("It cannot fail to settle.", "+settle"),
+                ("It never fails to settle.", "+settle"),
+                // the denial belongs to another clause
+                ("It is not pushed, it settles.", "+settles"),
+                ("It does not run away but settles.", "+settles"),
+                ("It does not run away; it settles.", "+settles"),
+                ("It does not turn over and it settles.", "+settles"),
+                ("It does not turn over and comes back, settles.", "+settles"),
+                ("Because it is not driven it settles.", "-settles"),
+                // the denial goes on
+                ("It does not swing and settle.", "-settle"),
+                ("It does not, in general, settle.", "-settle"),
+                // no denial at all
+                ("It not only swings but also settles.", "+settles"),
+                ("No doubt it settles.", "+settles"),
+                // the extent is denied
+                ("It does not settle immediately.", ""),
+                ("It does not fully settle.", ""),
+            ],
+        );
+        check(
+            "oscillation*",
+            &[
+                ("Oscillations are not seen.", "-Oscillations"),
+                ("Oscillations do not occur.", "-Oscillations"),
+                ("There is no oscillation.", "-oscillation"),
+                ("There are no visible oscillations.", "-oscillations"),
+                ("Oscillation is clear.", "+Oscillation"),
+                ("The oscillation is not only clear but large.", "+oscillation"),
+            ],
+        );
+        check(
+            "comes to rest",
+            &[("It comes to rest.", "+comes to rest"), ("It comes never to rest.", "-comes never to rest")],
+        );
+        check("oscillate", &[("It does not oscillate for ever.", "")]);
+    }
+
+    #[test]
+    fn phrases_may_deny_by_themselves() {
+        check(
+            "does not respond",
+            &[
+                ("It does not respond.", "+does not respond"),
+                ("It doesn't respond.", "+doesn't respond"),
+                ("It responds.", ""),
+            ],
+        );
+        check("no difference", &[("There is no difference.", "+no difference")]);
+    }
+}
