@@ -1,4 +1,6 @@
-use super::Response;
+use super::{InputKind, Mode, Response, settling};
+use crate::algebra::significant;
+use std::f64::consts::TAU;
 
 /// Where a response goes as t → ∞.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,6 +13,38 @@ pub enum Limit {
     Oscillates,
     /// Oscillates with growing amplitude.
     OscillatesUnbounded,
+}
+
+impl Limit {
+    /// The stable code: `value`, `plus_infinity`, `minus_infinity`, `oscillates` or `oscillates_unbounded`.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Value(_) => "value",
+            Self::PlusInfinity => "plus_infinity",
+            Self::MinusInfinity => "minus_infinity",
+            Self::Oscillates => "oscillates",
+            Self::OscillatesUnbounded => "oscillates_unbounded",
+        }
+    }
+
+    /// The value to four figures, or what it does instead: `0.25`, `grows without bound`.
+    pub fn words(self) -> String {
+        match self {
+            Self::Value(value) => significant(value, 4),
+            Self::PlusInfinity => "grows without bound".to_owned(),
+            Self::MinusInfinity => "falls without bound".to_owned(),
+            Self::Oscillates => "oscillates for ever".to_owned(),
+            Self::OscillatesUnbounded => "oscillates with growing amplitude".to_owned(),
+        }
+    }
+
+    /// The final value, where there is one.
+    pub fn value(self) -> Option<f64> {
+        match self {
+            Self::Value(value) => Some(value),
+            _ => None,
+        }
+    }
 }
 
 /// The general shape of a response, in the words of a textbook.
@@ -32,6 +66,34 @@ pub enum Shape {
     Constant,
 }
 
+impl Shape {
+    /// The stable code, such as `decaying_oscillation`.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::DecayingOscillation => "decaying_oscillation",
+            Self::SustainedOscillation => "sustained_oscillation",
+            Self::GrowingOscillation => "growing_oscillation",
+            Self::ExponentialDecay => "exponential_decay",
+            Self::ExponentialGrowth => "exponential_growth",
+            Self::PolynomialGrowth => "polynomial_growth",
+            Self::Constant => "constant",
+        }
+    }
+
+    /// The same in plain English, to stand in a sentence.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::DecayingOscillation => "a decaying oscillation",
+            Self::SustainedOscillation => "a sustained oscillation",
+            Self::GrowingOscillation => "a growing oscillation",
+            Self::ExponentialDecay => "an exponential approach to the final value",
+            Self::ExponentialGrowth => "exponential growth",
+            Self::PolynomialGrowth => "growth like a power of time",
+            Self::Constant => "constant",
+        }
+    }
+}
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extremum {
     pub time_s: f64,
@@ -39,19 +101,22 @@ pub struct Extremum {
 }
 
 /// What one reads off a response, from its closed form with bracketed extrema.
+///
+/// Accuracy: times and values to about 1e-12 of the time constants and of the peak. A response with more than some ten
+/// thousand swings before it settles is read off its envelope instead, never too early.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Features {
     /// y(0⁺).
     pub initial_value: f64,
     pub final_value: Limit,
     pub shape: Shape,
-    /// The extremum of largest |y|, `None` when |y| has no maximum (unbounded responses).
+    /// The extremum of largest |y|, `None` when |y| has no maximum (unbounded responses, and those that only approach it).
     pub peak: Option<Extremum>,
-    /// The first few extrema in time order (at most 8).
+    /// The first few extrema in time order (at most 8); t = 0 is not one of them.
     pub extrema: Vec<Extremum>,
     /// 2π/|Im p| of the dominant (slowest-decaying) complex pair present in the response.
     pub period_s: Option<f64>,
-    /// ζ and ω_n (rad/s) of that pair.
+    /// ζ and ω_n (rad/s) of that pair; ζ is negative when it grows.
     pub damping_ratio: Option<f64>,
     pub natural_frequency_rad_s: Option<f64>,
     /// −1/Re of the slowest decaying term present, s.
@@ -59,11 +124,404 @@ pub struct Features {
     /// Time after which |y − final| stays within 2 % and 5 % of the peak deviation, for a decaying response, located on the curve.
     pub settling_time_2_percent_s: Option<f64>,
     pub settling_time_5_percent_s: Option<f64>,
+    /// How far a step response goes beyond its final value, in percent of it; 0 when it does not.
+    pub overshoot_percent: Option<f64>,
+    /// From 10 % to 90 % of the final value of a step response that starts below 10 %, at the first passage.
+    pub rise_time_10_90_s: Option<f64>,
+    /// From 0 to the first passage of the final value, for a step response that reaches it.
+    pub rise_time_0_100_s: Option<f64>,
 }
+
+/// At most so many extrema are listed.
+const EXTREMA_LISTED: usize = 8;
 
 impl Features {
     pub fn of(response: &Response) -> Self {
-        let _ = response;
-        todo!()
+        let extrema = first_extrema(response);
+        let (shape, final_value) = Outlook::of(response).judged(response, &extrema);
+        let bounded = matches!(final_value, Limit::Value(_) | Limit::Oscillates);
+        let enough_s =
+            if final_value == Limit::Oscillates { 4.0 * response.horizon_s() } else { f64::INFINITY };
+        let pair = dominant_pair(response);
+        let decaying = response.present().filter(|mode| mode.re < 0.0).map(|mode| -1.0 / mode.re);
+        let deviation = final_value.value().and_then(|value| {
+            let peak = settling::largest_excursion(response, value, f64::INFINITY)?;
+            Some((peak.value - value).abs()).filter(|&size| size > 0.0)
+        });
+        let settled = |share: f64| deviation.map(|size| settling::last_crossing(response, share * size));
+        let step_to = final_value.value().filter(|&v| response.kind == InputKind::Step && v != 0.0);
+        let reached =
+            |share: f64| step_to.and_then(|value| settling::first_crossing(response, share * value));
+        let starts_low = step_to.is_some_and(|value| response.at(0.0) / value < 0.1);
+        Self {
+            initial_value: response.at(0.0),
+            final_value,
+            shape,
+            peak: if bounded { settling::largest_excursion(response, 0.0, enough_s) } else { None },
+            extrema,
+            period_s: pair.map(|mode| TAU / mode.im),
+            damping_ratio: pair.map(|mode| -mode.re / mode.speed()),
+            natural_frequency_rad_s: pair.map(Mode::speed),
+            slowest_time_constant_s: decaying.reduce(f64::max),
+            settling_time_2_percent_s: settled(0.02),
+            settling_time_5_percent_s: settled(0.05),
+            overshoot_percent: step_to.map(|value| overshoot_percent(response, value)),
+            rise_time_10_90_s: reached(0.9)
+                .zip(reached(0.1))
+                .filter(|_| starts_low)
+                .map(|(late, early)| late - early),
+            rise_time_0_100_s: reached(1.0).filter(|_| starts_low),
+        }
+    }
+}
+
+fn first_extrema(response: &Response) -> Vec<Extremum> {
+    let mut extrema = Vec::new();
+    let mut scan = response.extrema_from(0.0);
+    while !scan.finished() && extrema.len() < EXTREMA_LISTED {
+        extrema.extend(scan.advance());
+        // What is left of a decaying response is below rounding.
+        let highest = response.moving_bound_from(0.0);
+        if highest.is_finite() && response.moving_bound_from(scan.time()) <= 1e-13 * highest {
+            break;
+        }
+    }
+    extrema
+}
+
+/// The slowest-decaying (or fastest-growing) pair one can see.
+fn dominant_pair(response: &Response) -> Option<&Mode> {
+    let pairs = response.present().filter(|mode| !mode.is_real());
+    pairs.fold(None, |best: Option<&Mode>, mode| match best {
+        Some(b) if (b.re, b.amplitude()) >= (mode.re, mode.amplitude()) => best,
+        _ => Some(mode),
+    })
+}
+
+/// How far y goes beyond `value`, in percent of it.
+fn overshoot_percent(response: &Response, value: f64) -> f64 {
+    let beyond = |y: f64| y / value - 1.0;
+    let mut most = beyond(response.at(0.0)).max(0.0);
+    let mut scan = response.extrema_from(0.0);
+    while !scan.finished() {
+        let rest = response.moving_bound_from(scan.time()) / value.abs();
+        if rest <= most || rest <= 1e-12 {
+            break;
+        }
+        if let Some(extremum) = scan.advance() {
+            most = most.max(beyond(extremum.value));
+        }
+    }
+    100.0 * most
+}
+
+/// The terms that outlast the others.
+///
+/// The rightmost terms decide, among them those with the highest power of t; the constant term (the final value) does
+/// not count. Where a real and a complex term tie, the larger amplitude decides.
+struct Outlook<'a> {
+    /// The largest real one of them.
+    real: Option<&'a Mode>,
+    /// The largest pair.
+    pair: Option<&'a Mode>,
+}
+
+impl<'a> Outlook<'a> {
+    fn of(response: &'a Response) -> Self {
+        let moving = || response.present().filter(|mode| !mode.is_constant());
+        let rightmost = moving().map(|mode| mode.re).fold(f64::NEG_INFINITY, f64::max);
+        let right = || moving().filter(move |mode| mode.re == rightmost);
+        let power = right().map(|mode| mode.power).max().unwrap_or(0);
+        let largest = |real: bool| {
+            let candidates = right().filter(move |mode| mode.power == power && mode.is_real() == real);
+            candidates.max_by(|a, b| a.amplitude().total_cmp(&b.amplitude()))
+        };
+        Self { real: largest(true), pair: largest(false) }
+    }
+
+    fn judged(&self, response: &Response, extrema: &[Extremum]) -> (Shape, Limit) {
+        let size = |mode: Option<&Mode>| mode.map_or(0.0, Mode::amplitude);
+        let Some(leader) = (if size(self.pair) > size(self.real) { self.pair } else { self.real }) else {
+            return (Shape::Constant, Limit::Value(response.constant()));
+        };
+        if leader.re < 0.0 {
+            let swings = leads_visibly(leader, response) || swings_visibly(response, extrema);
+            let shape = if swings { Shape::DecayingOscillation } else { Shape::ExponentialDecay };
+            return (shape, Limit::Value(response.constant()));
+        }
+        let bounded = leader.re == 0.0 && leader.power == 0;
+        match (leader.is_real(), bounded) {
+            (false, true) => (Shape::SustainedOscillation, Limit::Oscillates),
+            (false, false) => (Shape::GrowingOscillation, Limit::OscillatesUnbounded),
+            (true, _) => {
+                let shape = if leader.re > 0.0 { Shape::ExponentialGrowth } else { Shape::PolynomialGrowth };
+                let up = leader.coefficient_re > 0.0;
+                (shape, if up { Limit::PlusInfinity } else { Limit::MinusInfinity })
+            }
+        }
+    }
+}
+
+/// Whether a decaying response ends in the oscillation of a pair that has at least 1 % of the largest amplitude.
+fn leads_visibly(leader: &Mode, response: &Response) -> bool {
+    let largest =
+        response.present().filter(|mode| !mode.is_constant()).map(Mode::amplitude).fold(0.0, f64::max);
+    !leader.is_real() && leader.amplitude() >= 0.01 * largest
+}
+
+/// Whether a pair makes the curve go up and down by at least 5 % of its range, twice in a row.
+///
+/// A slow real term may outlast an oscillation that everyone sees.
+fn swings_visibly(response: &Response, extrema: &[Extremum]) -> bool {
+    let values = || std::iter::once(response.at(0.0)).chain(extrema.iter().map(|e| e.value));
+    let (low, high) =
+        values().fold((response.constant(), response.constant()), |(low, high), y| (low.min(y), high.max(y)));
+    let swings =
+        extrema.windows(2).filter(|pair| (pair[1].value - pair[0].value).abs() >= 0.05 * (high - low));
+    response.present().any(|mode| !mode.is_real()) && swings.count() >= 2
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Limit::{MinusInfinity, Oscillates, OscillatesUnbounded, PlusInfinity, Value};
+    use super::*;
+    use crate::lti::InputKind::{Impulse, Step};
+    use crate::lti::tests::{HANGING, UPRIGHT, tf};
+
+    fn features(g: (&str, &str), kind: InputKind) -> Features {
+        Features::of(&Response::new(&tf(g.0, g.1), kind).unwrap())
+    }
+
+    #[track_caller]
+    fn close(what: &str, found: f64, expected: f64) {
+        assert!(
+            (found - expected).abs() <= 1e-12 * expected.abs().max(1e-3),
+            "{what}: {found}, not {expected}"
+        );
+    }
+
+    #[track_caller]
+    fn close_option(what: &str, found: Option<f64>, expected: Option<f64>) {
+        assert_eq!(found.is_some(), expected.is_some(), "{what}: {found:?}, not {expected:?}");
+        if let (Some(found), Some(expected)) = (found, expected) {
+            close(what, found, expected);
+        }
+    }
+
+    #[test]
+    fn shapes_and_limits() {
+        use super::Shape::*;
+        #[track_caller]
+        fn check(what: &str, g: (&str, &str), kind: InputKind, shape: Shape, limit: Limit) {
+            let found = features(g, kind);
+            assert_eq!(found.shape, shape, "{what}");
+            assert_eq!(found.final_value.as_str(), limit.as_str(), "{what}");
+            close_option(what, found.final_value.value(), limit.value());
+            let bounded = matches!(limit, Value(_) | Oscillates);
+            assert!(bounded || found.peak.is_none(), "{what}: {:?}", found.peak);
+        }
+        check("hanging impulse", HANGING, Impulse, DecayingOscillation, Value(0.0));
+        check("hanging step", HANGING, Step, DecayingOscillation, Value(0.0));
+        check("upright impulse", UPRIGHT, Impulse, ExponentialGrowth, PlusInfinity);
+        check("upright, sign turned", ("-0.06 0", UPRIGHT.1), Impulse, ExponentialGrowth, MinusInfinity);
+        check("first order", ("3", "2 1"), Impulse, ExponentialDecay, Value(0.0));
+        check("double pole", ("1", "1 2 1"), Impulse, ExponentialDecay, Value(0.0));
+        check("undamped", ("1", "1 0 4"), Impulse, SustainedOscillation, Oscillates);
+        check("undamped step", ("1", "1 0 4"), Step, SustainedOscillation, Oscillates);
+        check("resonance", ("1", "1 0 2 0 1"), Impulse, GrowingOscillation, OscillatesUnbounded);
+        check("negative damping", ("1", "1 -0.2 4"), Impulse, GrowingOscillation, OscillatesUnbounded);
+        check("ramp", ("1", "1 0"), Step, PolynomialGrowth, PlusInfinity);
+        check("motor to position", ("-0.2083", "1 1.71 0"), Step, PolynomialGrowth, MinusInfinity);
+        check("motor to position", ("2", "1 4 0"), Impulse, ExponentialDecay, Value(0.5));
+        check("ramp and oscillation", ("1", "1 0 1 0 0"), Impulse, PolynomialGrowth, PlusInfinity);
+        check("zero", ("0", "1 1"), Step, Constant, Value(0.0));
+        check("gain", ("3", "2"), Step, Constant, Value(1.5));
+        check("integrator's impulse", ("5", "1 0"), Impulse, Constant, Value(5.0));
+        check("zeta 0.9", ("1", "1 1.8 1"), Impulse, DecayingOscillation, Value(0.0));
+        // 1/(s + 0.1) outlasts a pair at −1 ± 10j that everyone sees.
+        check(
+            "slow pole under ripple",
+            ("2 4.2 103", "1 2.1 101.2 10.1"),
+            Impulse,
+            DecayingOscillation,
+            Value(0.0),
+        );
+        // The same pair, a thousand times smaller.
+        check(
+            "slow pole, ripple too small",
+            ("1.001 2.0021 101.0101", "1 2.1 101.2 10.1"),
+            Impulse,
+            ExponentialDecay,
+            Value(0.0),
+        );
+        // A residue of 1e-7 on the right decides all the same.
+        check(
+            "nearly cancelled on the right",
+            ("1 -1.0000001", "1 0 -1"),
+            Impulse,
+            ExponentialGrowth,
+            MinusInfinity,
+        );
+        check("cancelled exactly on the right", ("1 -1", "1 0 -1"), Impulse, ExponentialDecay, Value(0.0));
+    }
+
+    /// mpmath 1.3 with 40 digits: roots of y′ and of |y − final| − band.
+    #[test]
+    fn hanging_pendulum_peaks_at_its_second_extremum() {
+        let found = features(HANGING, Impulse);
+        let expected = [
+            (0.27609452806719964, -0.78911275186133619),
+            (0.83824178016767964, 0.81875231047215797),
+            (1.4008118019297955, -0.77455760479132068),
+            (1.9629874009381699, 0.79867990982972309),
+            (2.5255309763801616, -0.75994128593497057),
+            (3.0877312483890664, 0.77938960225648422),
+            (3.6502518051021734, -0.74532099926628901),
+            (4.2124735523614097, 0.76081287979969032),
+        ];
+        assert_eq!(found.extrema.len(), expected.len());
+        for (extremum, (time_s, value)) in found.extrema.iter().zip(expected) {
+            close("time", extremum.time_s, time_s);
+            close("value", extremum.value, value);
+        }
+        assert_eq!(found.peak, Some(found.extrema[1]));
+        close("initial value", found.initial_value, 0.0);
+        close_option("2 %", found.settling_time_2_percent_s, Some(200.49136711390514));
+        close_option("5 %", found.settling_time_5_percent_s, Some(153.25915446746511));
+        close_option("period", found.period_s, Some(TAU / 5.5863847121985271));
+        close_option(
+            "damping",
+            found.damping_ratio,
+            Some(0.019467786474327556 / 0.019467786474327556f64.hypot(5.5863847121985271)),
+        );
+        close_option("slowest", found.slowest_time_constant_s, Some(1.0 / 0.019467786474327556));
+
+        let step = features(HANGING, Step);
+        assert_eq!(step.peak, Some(step.extrema[0]));
+        close("step's peak", step.extrema[0].value, -0.27851216494503879);
+        close_option("step, 2 %", step.settling_time_2_percent_s, Some(167.58890859717658));
+        close_option("step, 5 %", step.settling_time_5_percent_s, Some(120.35861855854914));
+    }
+
+    /// mpmath 1.3 with 40 digits; second and first order also by hand.
+    #[test]
+    fn step_responses() {
+        struct Row {
+            settling: [f64; 2],
+            overshoot: f64,
+            rise_10_90: f64,
+            rise_0_100: Option<f64>,
+            peak: Option<(f64, f64)>,
+        }
+        #[track_caller]
+        fn check(what: &str, g: (&str, &str), row: Row) {
+            let found = features(g, Step);
+            close_option(what, found.settling_time_2_percent_s, Some(row.settling[0]));
+            close_option(what, found.settling_time_5_percent_s, Some(row.settling[1]));
+            close_option(what, found.overshoot_percent, Some(row.overshoot));
+            close_option(what, found.rise_time_10_90_s, Some(row.rise_10_90));
+            close_option(what, found.rise_time_0_100_s, row.rise_0_100);
+            close_option(what, found.peak.map(|peak| peak.time_s), row.peak.map(|peak| peak.0));
+            close_option(what, found.peak.map(|peak| peak.value), row.peak.map(|peak| peak.1));
+        }
+        check(
+            "zeta 0.2, 2 rad/s",
+            ("4", "1 0.8 4"),
+            Row {
+                settling: [9.8009518652186914, 6.8722182091356257],
+                overshoot: 52.6620599330303,
+                rise_10_90: 0.83432091081968154 - 0.23260596035701871,
+                rise_0_100: Some(0.90434867751867817),
+                peak: Some((1.6031872877023301, 1.526620599330303)),
+            },
+        );
+        check(
+            "first order, 2 s",
+            ("3", "2 1"),
+            Row {
+                settling: [2.0 * 50f64.ln(), 2.0 * 20f64.ln()],
+                overshoot: 0.0,
+                rise_10_90: 2.0 * 9f64.ln(),
+                rise_0_100: None,
+                peak: None,
+            },
+        );
+        check(
+            "overdamped",
+            ("10", "1 7 10"),
+            Row {
+                settling: [2.2111611308555594, 1.7522353712281122],
+                overshoot: 0.0,
+                rise_10_90: 1.4037307925764999 - 0.17141185122898871,
+                rise_0_100: None,
+                peak: None,
+            },
+        );
+        check(
+            "starts the wrong way",
+            ("-1 1", "1 3 2"),
+            Row {
+                settling: [5.0055973718808665, 4.081603455186036],
+                overshoot: 0.0,
+                rise_10_90: 3.6695789942831861 - 1.2496391818834047,
+                rise_0_100: None,
+                peak: None,
+            },
+        );
+    }
+
+    #[test]
+    fn peaks_at_the_start_and_without_extrema() {
+        let decay = features(("3", "2 1"), Impulse);
+        assert_eq!(decay.peak, Some(Extremum { time_s: 0.0, value: 1.5 }));
+        assert_eq!(decay.extrema, []);
+        close_option("5 %", decay.settling_time_5_percent_s, Some(2.0 * 20f64.ln()));
+        assert_eq!(decay.period_s, None);
+
+        // (1 − 2t)² e^(−t): touches zero at 0.5 s, turns at 2.5 s.
+        let touching = features(("1 -2 5", "1 3 3 1"), Impulse);
+        assert_eq!(touching.extrema.len(), 2);
+        close("first", touching.extrema[0].time_s, 0.5);
+        close("second", touching.extrema[1].time_s, 2.5);
+        close("highest", touching.peak.unwrap().value, 16.0 * (-2.5f64).exp());
+
+        // t²/2 − 1000 t: one turn, far beyond any time constant.
+        let parabola = features(("-1000 1", "1 0 0 0"), Impulse);
+        assert_eq!(parabola.extrema.len(), 1);
+        close("parabola", parabola.extrema[0].time_s, 1000.0);
+
+        // y and its first five derivatives vanish at 0: rounding there is no extremum.
+        let flat = features(("1", "1 7 21 35 35 21 7 1"), Step);
+        assert_eq!(flat.extrema, []);
+
+        let undamped = features(("3", "1 0 9"), Impulse);
+        close("amplitude", undamped.peak.unwrap().value, 1.0);
+        assert_eq!(undamped.settling_time_2_percent_s, None);
+        close_option("no damping", undamped.damping_ratio, Some(0.0));
+    }
+
+    #[test]
+    fn widely_different_times() {
+        // 1 s and 1 µs: y = (e^(−t) − e^(−1e6 t)) · 1e6/(1e6 − 1).
+        let stiff = features(("1e6", "1 1000001 1e6"), Impulse);
+        assert_eq!(stiff.extrema.len(), 1);
+        close("peak", stiff.extrema[0].time_s, 1e6f64.ln() / 999999.0);
+        close_option(
+            "5 %",
+            stiff.settling_time_5_percent_s,
+            Some(20f64.ln() - (stiff.extrema[0].value * 0.999999).ln()),
+        );
+        // A pair that takes 10⁹ swings to settle is read off its envelope, at once.
+        let ringing = features(("4e14", "1 2e-2 4e14"), Step);
+        assert!((ringing.settling_time_5_percent_s.unwrap() / (100.0 * 20f64.ln()) - 1.0).abs() < 1e-6);
+        assert!((ringing.overshoot_percent.unwrap() - 100.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn codes_are_stable() {
+        assert_eq!(Shape::DecayingOscillation.as_str(), "decaying_oscillation");
+        assert_eq!(Shape::ExponentialDecay.words(), "an exponential approach to the final value");
+        assert_eq!(Value(0.25).words(), "0.25");
+        assert_eq!(OscillatesUnbounded.as_str(), "oscillates_unbounded");
     }
 }
