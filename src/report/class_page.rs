@@ -1,0 +1,180 @@
+//! The class page as a view: distribution, means, who needs review, links to every report.
+
+use super::class_summary::{ClassRow, ClassSummary, QuestionMean, ReviewEntry};
+use super::figures::distribution;
+use super::kit::ReportKit;
+use super::numbers::{counted, number};
+use super::pictures::draw;
+use super::view::{BarView, FigureView, provisional_words};
+use crate::lab::Points;
+use crate::source::sanitize;
+use serde::Serialize;
+
+#[derive(Serialize)]
+pub struct ClassPage {
+    page_title: String,
+    course: String,
+    lab_title: String,
+    facts: Vec<(&'static str, String)>,
+    plots: Vec<FigureView>,
+    questions: Vec<MeanView>,
+    review: Vec<ReviewGroup>,
+    review_words: String,
+    rows: Vec<RowView>,
+}
+
+#[derive(Serialize)]
+struct MeanView {
+    number: String,
+    title: String,
+    mean: String,
+    possible: String,
+    bar: BarView,
+}
+
+/// Marks on one criterion that wait for a person.
+#[derive(Serialize)]
+struct ReviewGroup {
+    title: String,
+    why: String,
+    amount: String,
+    /// Long lists start closed.
+    open: bool,
+    entries: Vec<EntryView>,
+}
+
+#[derive(Serialize)]
+struct EntryView {
+    student: String,
+    link: String,
+    marks: String,
+}
+
+#[derive(Serialize)]
+struct RowView {
+    ids: String,
+    names: String,
+    file: String,
+    link: String,
+    earned: String,
+    possible: String,
+    provisional: String,
+    findings: String,
+    cover: String,
+}
+
+pub fn page(kit: &ReportKit, summary: &ClassSummary) -> ClassPage {
+    let lab = &kit.lab;
+    let totals: Vec<f64> = summary.rows.iter().map(|r| r.earned.as_f64()).collect();
+    let possible = lab.questions.iter().map(|q| q.points).sum::<Points>();
+    let figure = distribution(&totals, possible.as_f64());
+    let review = review(kit, &summary.review);
+    ClassPage {
+        page_title: format!("Class – {}", lab.title),
+        course: lab.course.clone(),
+        lab_title: lab.title.clone(),
+        facts: facts(summary, &totals, possible),
+        plots: draw(&figure, "figure-distribution").into_iter().collect(),
+        questions: summary.questions.iter().map(|m| mean(kit, m)).collect(),
+        review_words: match summary.review.len() {
+            0 => "No mark waits for a person.".to_owned(),
+            1 => "One mark waits for a person.".to_owned(),
+            n => format!(
+                "{n} marks on {} wait for a person.",
+                counted(review.len(), "criterion").replace("criterions", "criteria")
+            ),
+        },
+        review,
+        rows: summary.rows.iter().map(row).collect(),
+    }
+}
+
+fn facts(summary: &ClassSummary, totals: &[f64], possible: Points) -> Vec<(&'static str, String)> {
+    let mut facts = vec![("Submissions", summary.rows.len().to_string())];
+    if !totals.is_empty() {
+        let mut sorted = totals.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let n = sorted.len();
+        let median = (sorted[(n - 1) / 2] + sorted[n / 2]) / 2.0;
+        let mean = sorted.iter().sum::<f64>() / n as f64;
+        facts.push(("Median", format!("{} of {possible}", number(median, 4))));
+        facts.push(("Mean", format!("{} of {possible}", number(mean, 4))));
+    }
+    let unreadable = summary.rows.iter().filter(|r| !r.readable).count();
+    if unreadable > 0 {
+        facts.push(("Files that could not be read", unreadable.to_string()));
+    }
+    let with_findings = summary.rows.iter().filter(|r| r.findings > 0).count();
+    facts.push(("With findings", with_findings.to_string()));
+    facts
+}
+
+fn mean(kit: &ReportKit, mean: &QuestionMean) -> MeanView {
+    let question = kit.lab.questions.iter().find(|q| q.id == mean.id);
+    let hundredths = if mean.mean.is_finite() { (mean.mean * 100.0).round() as i64 } else { 0 };
+    MeanView {
+        number: question.map_or_else(String::new, |q| q.number.clone()),
+        title: question.map_or_else(|| mean.id.clone(), |q| q.title.clone()),
+        mean: Points(hundredths).to_string(),
+        possible: mean.possible.to_string(),
+        bar: BarView::new(Points(hundredths), Points::ZERO, mean.possible),
+    }
+}
+
+/// Entries of the same criterion and the same reason together, in the order of their first.
+fn review(kit: &ReportKit, entries: &[ReviewEntry]) -> Vec<ReviewGroup> {
+    const OPEN: usize = 40;
+    let mut groups: Vec<(&ReviewEntry, Vec<EntryView>)> = Vec::new();
+    let mut places = std::collections::BTreeMap::new();
+    for entry in entries {
+        let place = *places.entry((&entry.item, &entry.why)).or_insert(groups.len());
+        if place == groups.len() {
+            groups.push((entry, Vec::new()));
+        }
+        groups[place].1.push(EntryView {
+            student: sanitize(&entry.student),
+            link: entry.link.clone(),
+            marks: format!("{} of {}", entry.earned, entry.possible),
+        });
+    }
+    groups
+        .into_iter()
+        .map(|(first, entries)| {
+            let question = kit.lab.questions.iter().find(|q| q.criteria.iter().any(|c| c.id == first.item));
+            let title = match question {
+                Some(q) => format!("{} – {}", q.number, first.title),
+                None => first.title.clone(),
+            };
+            ReviewGroup {
+                title,
+                why: first.why.clone(),
+                amount: counted(entries.len(), "mark"),
+                open: entries.len() <= OPEN,
+                entries,
+            }
+        })
+        .collect()
+}
+
+fn row(row: &ClassRow) -> RowView {
+    let joined = |part: fn(&crate::submission::Student) -> &str| {
+        let parts = row.students.iter().map(part).map(str::trim).filter(|p| !p.is_empty());
+        sanitize(&parts.map(|p| p.chars().take(80).collect::<String>()).collect::<Vec<_>>().join(", "))
+    };
+    let names = joined(|s| &s.name);
+    RowView {
+        ids: joined(|s| &s.id),
+        names: if names.is_empty() { "not named".to_owned() } else { names },
+        file: sanitize(&row.file),
+        link: row.report.clone(),
+        earned: row.earned.to_string(),
+        possible: row.possible.to_string(),
+        provisional: provisional_words(row.provisional),
+        findings: match (row.readable, row.findings) {
+            (false, _) => "not readable".to_owned(),
+            (true, 0) => String::new(),
+            (true, n) => n.to_string(),
+        },
+        cover: row.cover_total.map_or_else(|| "waiting".to_owned(), |p| p.to_string()),
+    }
+}

@@ -1,0 +1,14 @@
+//! Which figures there are, and what is in them. Data only: nothing is drawn here.
+
+mod distribution;
+mod frame;
+mod nonlinear;
+mod pole_zero;
+mod response;
+mod simulation;
+
+pub use distribution::distribution;
+pub use nonlinear::{comparison_figure, parting_words};
+pub use pole_zero::{StudentRoots, pole_zero, root_words};
+pub use response::{PreparedResponse, StudentCurves, feature_words, limit_words};
+pub use simulation::{PreparedSimulation, characteristic_figure};

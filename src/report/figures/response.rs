@@ -1,0 +1,159 @@
+use super::frame::{data_series, frame, leaving_words};
+use crate::lti::{Features, InputKind, Limit, Response, Shape};
+use crate::reference::{OperatingPointReference, ResponseReference};
+use crate::report::figure::{Axis, Figure, Look, Series};
+use crate::report::numbers::{letter, number, quantity};
+use crate::submission;
+
+/// The views of one response that do not depend on a student: how far they go, and the reference curve in each.
+#[derive(Clone, Debug)]
+pub struct PreparedResponse {
+    title: String,
+    output: String,
+    unit: String,
+    summary: String,
+    views: Vec<View>,
+}
+
+#[derive(Clone, Debug)]
+struct View {
+    name: String,
+    end_s: f64,
+    reference: Vec<(f64, f64)>,
+}
+
+/// What a student has to be drawn over the reference.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct StudentCurves<'a> {
+    /// The response of the student's own transfer function.
+    pub own: Option<&'a Response>,
+    /// The numbers handed in.
+    pub data: Option<&'a submission::Series>,
+}
+
+/// A response of more than so many periods is shown twice: its beginning, and all of it.
+const MANY_PERIODS: f64 = 14.0;
+const FIRST_PERIODS: f64 = 7.0;
+/// Of the height of the curve: a fifth of a pixel of a picture 240 px high.
+const TOLERANCE: f64 = 8e-4;
+
+impl PreparedResponse {
+    pub fn new(point: &OperatingPointReference, reference: &ResponseReference) -> Self {
+        let unit = &point.output_unit;
+        let (kind, title) = match reference.response.kind {
+            InputKind::Impulse => ("unit impulse", "Impulse response"),
+            InputKind::Step => ("unit step", "Step response"),
+        };
+        let whole =
+            View { name: String::new(), end_s: reference.horizon_s, reference: reference.samples.clone() };
+        let views = match reference.features.period_s {
+            Some(period) if reference.horizon_s > MANY_PERIODS * period => {
+                let end_s = FIRST_PERIODS * period;
+                let first = View {
+                    name: format!(": the first {}", quantity(end_s, 2, "s")),
+                    end_s,
+                    reference: reference.response.samples(end_s, TOLERANCE),
+                };
+                vec![first, View { name: ": the whole decay".to_owned(), ..whole }]
+            }
+            _ => vec![whole],
+        };
+        let summary = format!(
+            "Answer of {} to a {kind} at {}. {}",
+            letter(&point.output),
+            letter(&point.input),
+            feature_words(&reference.features, unit)
+        );
+        let title = format!("{title}, {}", point.title);
+        Self { title, output: letter(&point.output), unit: unit.clone(), summary, views }
+    }
+
+    /// One figure a view, the student's curves over the reference.
+    pub fn figures(&self, student: StudentCurves<'_>) -> Vec<Figure> {
+        self.views.iter().map(|view| self.figure(view, student)).collect()
+    }
+
+    fn figure(&self, view: &View, student: StudentCurves<'_>) -> Figure {
+        let reach = view.reference.iter().map(|p| p.1.abs()).fold(0.0, f64::max);
+        let own = student.own.map(|r| sampled(r, view.end_s, reach)).unwrap_or_default();
+        let data = student.data.map(|d| data_series(d, view.end_s)).unwrap_or_default();
+        let mut others: Vec<&[(f64, f64)]> = vec![&own];
+        others.extend(data.iter().map(|s| s.points.as_slice()));
+        let range = frame(&view.reference, &others);
+
+        let x = Axis::new("time t", "s", 0.0, view.end_s);
+        let y = Axis::new(&self.output, &self.unit, range.0, range.1);
+        let mut figure = Figure::new(format!("{}{}", self.title, view.name), x, y);
+        figure.zero_lines = true;
+        figure.summary = self.summary.clone();
+        let points = view.reference.clone();
+        figure.series.push(Series { name: "reference".into(), look: Look::Reference, points });
+        if !own.is_empty() {
+            figure.caption += &leaving_words("The curve of your transfer function", &own, range);
+            let name = "your transfer function".to_owned();
+            figure.series.push(Series { name, look: Look::Student, points: own });
+        }
+        for series in data {
+            figure.caption += &leaving_words("Your data", &series.points, range);
+            figure.series.push(series);
+        }
+        figure.caption = figure.caption.trim().to_owned();
+        if !figure.caption.is_empty() {
+            figure.summary = format!("{} {}", figure.summary, figure.caption);
+        }
+        figure
+    }
+}
+
+/// The curve of a student's system as far as it matters: until `end_s`, or until it has left the picture for good measure.
+fn sampled(response: &Response, end_s: f64, reach: f64) -> Vec<(f64, f64)> {
+    const STEPS: usize = 300;
+    let far = 8.0 * if reach > 0.0 { reach } else { 1.0 };
+    let instants = (1..=STEPS).map(|i| end_s * i as f64 / STEPS as f64);
+    let end_s = instants.clone().find(|&t| !(response.at(t).abs() < far)).unwrap_or(end_s);
+    let mut points = response.samples(end_s, TOLERANCE);
+    if let Some(bad) = points.iter().position(|(t, y)| !t.is_finite() || !y.is_finite()) {
+        points.truncate(bad);
+    }
+    points
+}
+
+/// What one reads off the response, in full sentences.
+pub fn feature_words(features: &Features, unit: &str) -> String {
+    let shape = match features.shape {
+        Shape::DecayingOscillation => "It swings with shrinking amplitude",
+        Shape::SustainedOscillation => "It swings with constant amplitude",
+        Shape::GrowingOscillation => "It swings with growing amplitude",
+        Shape::ExponentialDecay => "It approaches its final value without swinging about it",
+        Shape::ExponentialGrowth => "It leaves to one side, ever faster",
+        Shape::PolynomialGrowth => "It grows like a power of time",
+        Shape::Constant => "It stays where it is",
+    };
+    let mut words = format!("{shape}, from {}", quantity(features.initial_value, 4, unit));
+    words += &format!(" {}.", limit_words(features.final_value, unit));
+    if let Some(peak) = features.peak {
+        let (value, time) = (quantity(peak.value, 4, unit), quantity(peak.time_s, 4, "s"));
+        words += &format!(" It is farthest out with {value} at {time}.");
+    }
+    if let Some(period) = features.period_s {
+        words += &format!(" Period {}.", quantity(period, 4, "s"));
+    }
+    if let Some(damping) = features.damping_ratio {
+        words += &format!(" Damping ratio {}.", number(damping, 4));
+    }
+    if let Some(time) = features.settling_time_2_percent_s {
+        words += &format!(" It stays within 2\u{a0}% after {}.", quantity(time, 4, "s"));
+    }
+    words
+}
+
+/// `to 0 rad`, `beyond every bound, upwards` …
+pub fn limit_words(limit: Limit, unit: &str) -> String {
+    match limit {
+        Limit::Value(v) => format!("to {}", quantity(v, 4, unit)),
+        Limit::PlusInfinity => "to +∞".to_owned(),
+        Limit::MinusInfinity => "to −∞".to_owned(),
+        Limit::Oscillates => "without a limit: it swings for ever".to_owned(),
+        Limit::OscillatesUnbounded => "without a limit: its swings grow without bound".to_owned(),
+    }
+}

@@ -1,0 +1,138 @@
+use super::anchor::question_anchor;
+use super::class_summary::ClassSummary;
+use super::figure::FigureError;
+use super::figures::parting_words;
+use super::pictures::{self, Picture};
+use super::{answer_key, answers, class_page, prose, student};
+use crate::grading::Scorecard;
+use crate::lab::{LabDefinition, Question, SystemRef};
+use crate::reference::Reference;
+use crate::submission::{FieldKind, Submission};
+use minijinja::syntax::SyntaxConfig;
+use minijinja::value::Serde;
+use minijinja::{Environment, UndefinedBehavior};
+
+/// Everything in the reports that does not depend on a student: templates read, question texts and reference figures rendered.
+///
+/// Made once a lab and shared between threads.
+pub struct ReportKit {
+    environment: Environment<'static>,
+    pub(super) lab: LabDefinition,
+    pub(super) reference: Reference,
+    pub(super) questions: Vec<QuestionKit>,
+}
+
+/// A question, ready to be shown.
+pub(super) struct QuestionKit {
+    pub anchor: String,
+    pub text_html: String,
+    pub fields: Vec<FieldKit>,
+    pub pictures: Vec<Picture>,
+    /// Below the figures: how far the linear model may be trusted. Empty where nothing linear is asked about.
+    pub remark: String,
+}
+
+/// A field of the answer and what would have been right.
+pub(super) struct FieldKit {
+    pub path: String,
+    pub prompt: String,
+    pub kind: FieldKind,
+    pub reference_html: String,
+}
+
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    #[error("a figure of question `{question}` cannot be drawn: {source}")]
+    Figure { question: String, source: FigureError },
+    #[error("the template `{name}` cannot be read: {source}")]
+    Template { name: &'static str, source: minijinja::Error },
+}
+
+const TEMPLATES: [(&str, &str); 6] = [
+    ("base.html", include_str!("../../templates/base.html")),
+    ("parts.html", include_str!("../../templates/parts.html")),
+    ("style.css", include_str!("../../templates/style.css")),
+    ("student.html", include_str!("../../templates/student.html")),
+    ("reference.html", include_str!("../../templates/reference.html")),
+    ("class.html", include_str!("../../templates/class.html")),
+];
+
+impl ReportKit {
+    /// Errors: a reference curve that cannot be drawn.
+    pub fn new(lab: &LabDefinition, reference: &Reference) -> Result<Self, ReportError> {
+        let mut environment = Environment::new();
+        environment.set_undefined_behavior(UndefinedBehavior::Strict);
+        let syntax = SyntaxConfig::builder().trim_blocks(true).lstrip_blocks(true).build();
+        environment.set_syntax(syntax.map_err(|source| ReportError::Template { name: "base.html", source })?);
+        for (name, source) in TEMPLATES {
+            environment
+                .add_template(name, source)
+                .map_err(|source| ReportError::Template { name, source })?;
+        }
+        environment.add_global("version", env!("CARGO_PKG_VERSION"));
+        let questions =
+            lab.questions.iter().map(|q| QuestionKit::new(lab, reference, q)).collect::<Result<_, _>>()?;
+        Ok(Self { environment, lab: lab.clone(), reference: reference.clone(), questions })
+    }
+
+    /// The report of one submission, one self-contained HTML file.
+    pub fn student_page(&self, submission: &Submission, scorecard: &Scorecard) -> String {
+        self.render("student.html", &student::page(self, submission, scorecard))
+    }
+
+    /// The answer key: from the equations to every reference answer.
+    pub fn reference_page(&self) -> String {
+        self.render("reference.html", &answer_key::page(self))
+    }
+
+    /// `index.html` of a class.
+    pub fn class_page(&self, summary: &ClassSummary) -> String {
+        self.render("class.html", &class_page::page(self, summary))
+    }
+
+    fn render(&self, template: &str, page: &impl serde::Serialize) -> String {
+        let rendered = self.environment.get_template(template).and_then(|t| t.render(Serde(page)));
+        // Templates and views are ours, and tested together; if they disagree all the same, the reader is told.
+        rendered.unwrap_or_else(|e| {
+            let words = prose::as_typed(&format!("polemark could not write this page: {e:#}"));
+            format!("<!doctype html><html lang=\"en\"><title>Report</title>{words}</html>")
+        })
+    }
+}
+
+impl QuestionKit {
+    fn new(lab: &LabDefinition, reference: &Reference, question: &Question) -> Result<Self, ReportError> {
+        let fields = question
+            .fields
+            .iter()
+            .map(|f| FieldKit {
+                path: f.path.clone(),
+                prompt: f.prompt.clone(),
+                kind: f.kind,
+                reference_html: answers::reference(reference, &question.criteria, &f.path),
+            })
+            .collect();
+        let pictures = pictures::of_question(lab, reference, question)
+            .map_err(|source| ReportError::Figure { question: question.id.clone(), source })?;
+        let remark = pictures::systems(question)
+            .iter()
+            .filter_map(|system| trust(lab, reference, system))
+            .collect::<Vec<_>>()
+            .join(" ");
+        Ok(Self {
+            anchor: question_anchor(&question.id),
+            text_html: prose::to_html(&question.text),
+            fields,
+            pictures,
+            remark,
+        })
+    }
+}
+
+/// How far the linear model of `system` may be trusted, in words.
+pub(super) fn trust(lab: &LabDefinition, reference: &Reference, system: &SystemRef) -> Option<String> {
+    let point = answers::find(reference, system)?;
+    let model = lab.models.iter().find(|m| m.id == system.model)?;
+    let definition = model.operating_points.iter().find(|p| p.id == system.operating_point)?;
+    Some(parting_words(point, &definition.comparison, &point.comparison))
+}

@@ -1,0 +1,283 @@
+//! Which figures stand at a question: drawn once for the lab, and again only where a student has something to add.
+
+use super::anchor::anchor;
+use super::answers::{find, response_of};
+use super::figure::{Figure, FigureError};
+use super::figures::{
+    PreparedResponse, PreparedSimulation, StudentCurves, StudentRoots, characteristic_figure,
+    comparison_figure, pole_zero,
+};
+use super::numbers::counted;
+use super::svg;
+use super::view::FigureView;
+use crate::algebra::to_f64;
+use crate::lab::{Check, Curve, LabDefinition, Question, SystemRef};
+use crate::lti::{InputKind, Pole, Response, ResponseError, TransferFunction};
+use crate::reference::Reference;
+use crate::submission::{AnswerValue, Series, Submission};
+
+/// A place for figures on the page.
+pub enum Picture {
+    PoleZero(PoleZeroPicture),
+    Response(ResponsePicture),
+    Simulation(SimulationPicture),
+    /// The same for everyone.
+    Fixed(FigureView),
+}
+
+pub struct PoleZeroPicture {
+    id: String,
+    title: String,
+    poles: Vec<Pole>,
+    zeros: Vec<Pole>,
+    transfer_function_field: Option<String>,
+    poles_field: Option<String>,
+    shared: FigureView,
+}
+
+pub struct ResponsePicture {
+    id: String,
+    kind: InputKind,
+    prepared: PreparedResponse,
+    transfer_function_field: Option<String>,
+    data_field: Option<String>,
+    shared: Vec<FigureView>,
+}
+
+pub struct SimulationPicture {
+    id: String,
+    prepared: PreparedSimulation,
+    data_field: Option<String>,
+    shared: FigureView,
+}
+
+/// Draws `figure` under `id`.
+pub fn draw(figure: &Figure, id: &str) -> Result<FigureView, FigureError> {
+    Ok(FigureView { svg_html: svg::render(figure, id)?, caption: figure.caption.clone() })
+}
+
+/// The places for figures at a question, from what its criteria ask about.
+pub fn of_question(
+    lab: &LabDefinition,
+    reference: &Reference,
+    question: &Question,
+) -> Result<Vec<Picture>, FigureError> {
+    let mut pictures = Vec::new();
+    let mut number = 0;
+    let mut next_id = || {
+        number += 1;
+        anchor("figure", &format!("{}-{number}", question.id))
+    };
+    for system in systems(question) {
+        let Some(point) = find(reference, &system) else { continue };
+        let main = point.main();
+        let transfer_function_field = transfer_function_field(lab, &system);
+        let (id, title) = (next_id(), format!("Poles and zeros, {}", point.title));
+        let shared = draw(&pole_zero(&title, &main.poles, &main.zeros, None), &id)?;
+        pictures.push(Picture::PoleZero(PoleZeroPicture {
+            id,
+            title,
+            poles: main.poles.clone(),
+            zeros: main.zeros.clone(),
+            transfer_function_field: transfer_function_field.clone(),
+            poles_field: field_where(question, |c| matches!(c, Check::Poles { of, .. } if *of == system)),
+            shared,
+        }));
+        for kind in kinds(question, &system) {
+            let prepared = PreparedResponse::new(point, response_of(main, kind));
+            let id = next_id();
+            let shared = views(&prepared.figures(StudentCurves::default()), &id)?;
+            pictures.push(Picture::Response(ResponsePicture {
+                id,
+                kind,
+                prepared,
+                transfer_function_field: transfer_function_field.clone(),
+                data_field: data_field(
+                    question,
+                    |curve| matches!(curve, Curve::Response { of, response } if *of == system && *response == kind),
+                ),
+                shared,
+            }));
+        }
+        for (push, samples) in &point.comparison.runs {
+            pictures.push(Picture::Fixed(draw(&comparison_figure(point, *push, samples), &next_id())?));
+        }
+    }
+    for definition in lab.simulations.iter().filter(|s| s.shown_in == question.id) {
+        let Some(simulated) = reference.simulations.iter().find(|s| s.id == definition.id) else { continue };
+        let prepared = PreparedSimulation::new(definition, simulated);
+        let id = next_id();
+        let shared = draw(&prepared.figure(None), &id)?;
+        let data_field =
+            data_field(question, |curve| matches!(curve, Curve::Simulation { id } if *id == definition.id));
+        pictures.push(Picture::Simulation(SimulationPicture { id, prepared, data_field, shared }));
+        pictures.push(Picture::Fixed(draw(&characteristic_figure(definition, simulated), &next_id())?));
+    }
+    Ok(pictures)
+}
+
+impl Picture {
+    /// The figures as this student sees them. What cannot be drawn falls back on the reference alone, and says why.
+    pub fn for_student(&self, submission: &Submission) -> Vec<FigureView> {
+        match self {
+            Self::Fixed(view) => vec![view.clone()],
+            Self::PoleZero(picture) => vec![picture.for_student(submission)],
+            Self::Response(picture) => picture.for_student(submission),
+            Self::Simulation(picture) => match series(submission, picture.data_field.as_deref()) {
+                None => vec![picture.shared.clone()],
+                data => vec![
+                    draw(&picture.prepared.figure(data), &picture.id)
+                        .unwrap_or_else(|_| picture.shared.clone()),
+                ],
+            },
+        }
+    }
+}
+
+impl PoleZeroPicture {
+    fn for_student(&self, submission: &Submission) -> FigureView {
+        let mut student = StudentRoots::default();
+        let own = own_transfer_function(submission, self.transfer_function_field.as_deref());
+        if let Some(g) = own
+            && let (Ok(poles), Ok(zeros)) = (g.poles(), roots_of_numerator(g))
+        {
+            (student.poles, student.zeros) = (poles, zeros);
+        }
+        let listed = value(submission, self.poles_field.as_deref());
+        if let Some(AnswerValue::Poles(listed)) = listed {
+            student.listed = listed.iter().map(|p| (to_f64(&p.re.value), to_f64(&p.im.value))).collect();
+        }
+        if student == StudentRoots::default() {
+            return self.shared.clone();
+        }
+        let figure = pole_zero(&self.title, &self.poles, &self.zeros, Some(&student));
+        draw(&figure, &self.id).unwrap_or_else(|_| self.shared.clone())
+    }
+}
+
+impl ResponsePicture {
+    fn for_student(&self, submission: &Submission) -> Vec<FigureView> {
+        let data = series(submission, self.data_field.as_deref());
+        let own = own_transfer_function(submission, self.transfer_function_field.as_deref())
+            .map(|g| Response::new(g, self.kind));
+        let (own, trouble) = match own {
+            None => (None, String::new()),
+            Some(Ok(response)) => (Some(response), String::new()),
+            Some(Err(e)) => {
+                (None, format!("The response of your transfer function cannot be drawn: {}.", why(&e)))
+            }
+        };
+        if own.is_none() && data.is_none() && trouble.is_empty() {
+            return self.shared.clone();
+        }
+        let figures = self.prepared.figures(StudentCurves { own: own.as_ref(), data });
+        let mut views = views(&figures, &self.id).unwrap_or_else(|_| self.shared.clone());
+        if let Some(first) = views.first_mut()
+            && !trouble.is_empty()
+        {
+            first.caption = format!("{trouble} {}", first.caption).trim().to_owned();
+        }
+        views
+    }
+}
+
+fn why(error: &ResponseError) -> String {
+    match error {
+        ResponseError::Improper { num, den } => format!(
+            "its numerator is of degree {num} and its denominator of degree {den}, {} too many",
+            counted(num.saturating_sub(*den), "power")
+        ),
+        ResponseError::Roots(e) => e.to_string(),
+    }
+}
+
+fn views(figures: &[Figure], id: &str) -> Result<Vec<FigureView>, FigureError> {
+    let suffix = |i: usize| if i == 0 { id.to_owned() } else { format!("{id}-{i}") };
+    figures.iter().enumerate().map(|(i, figure)| draw(figure, &suffix(i))).collect()
+}
+
+/// Systems whose response a question asks about, in the order of its criteria.
+pub fn systems(question: &Question) -> Vec<SystemRef> {
+    let mut out: Vec<SystemRef> = Vec::new();
+    for criterion in &question.criteria {
+        let of = match &criterion.check {
+            Check::Poles { of, .. }
+            | Check::Stability { of }
+            | Check::Feature { of, .. }
+            | Check::Shape { of, .. }
+            | Check::Plot { curve: Curve::Response { of, .. }, .. } => of,
+            _ => continue,
+        };
+        if !out.contains(of) {
+            out.push(of.clone());
+        }
+    }
+    out
+}
+
+/// Which responses of `system` the question asks about; the impulse response if it names none.
+fn kinds(question: &Question, system: &SystemRef) -> Vec<InputKind> {
+    let mut out = Vec::new();
+    for criterion in &question.criteria {
+        let kind = match &criterion.check {
+            Check::Feature { of, response, .. }
+            | Check::Shape { of, response }
+            | Check::Plot { curve: Curve::Response { of, response }, .. }
+                if of == system =>
+            {
+                *response
+            }
+            _ => continue,
+        };
+        if !out.contains(&kind) {
+            out.push(kind);
+        }
+    }
+    if out.is_empty() { vec![InputKind::Impulse] } else { out }
+}
+
+/// The field of the whole lab that holds the student's transfer function of `system`.
+fn transfer_function_field(lab: &LabDefinition, system: &SystemRef) -> Option<String> {
+    lab.questions.iter().find_map(|q| {
+        field_where(q, |check| {
+            matches!(check, Check::Structure { of } | Check::Numerator { of, .. } | Check::Denominator { of, .. } if of == system)
+        })
+    })
+}
+
+fn field_where(question: &Question, wanted: impl Fn(&Check) -> bool) -> Option<String> {
+    question.criteria.iter().find(|c| wanted(&c.check)).map(|c| c.field.clone())
+}
+
+fn data_field(question: &Question, wanted: impl Fn(&Curve) -> bool) -> Option<String> {
+    question.criteria.iter().find_map(|c| match &c.check {
+        Check::Plot { data: Some(field), curve, .. } if wanted(curve) => Some(field.clone()),
+        _ => None,
+    })
+}
+
+fn value<'a>(submission: &'a Submission, field: Option<&str>) -> Option<&'a AnswerValue> {
+    submission.answers.get(field?)?.value.as_ref().ok()
+}
+
+fn own_transfer_function<'a>(
+    submission: &'a Submission,
+    field: Option<&str>,
+) -> Option<&'a TransferFunction> {
+    match value(submission, field)? {
+        AnswerValue::TransferFunction { transfer_function, .. } => Some(transfer_function),
+        _ => None,
+    }
+}
+
+fn series<'a>(submission: &'a Submission, field: Option<&str>) -> Option<&'a Series> {
+    match value(submission, field)? {
+        AnswerValue::Data(series) if !series.rows.is_empty() => Some(series),
+        _ => None,
+    }
+}
+
+/// The zeros; none for a numerator that is zero itself.
+fn roots_of_numerator(g: &TransferFunction) -> Result<Vec<Pole>, crate::lti::RootError> {
+    if g.num.is_zero() { Ok(Vec::new()) } else { g.zeros() }
+}

@@ -1,0 +1,325 @@
+//! One submission's report as a view.
+
+use super::anchor::item_anchor;
+use super::answers;
+use super::kit::{QuestionKit, ReportKit};
+use super::prose;
+use super::view::{
+    AnswerView, BoxView, FigureView, FindingView, ItemView, LevelView, ObservedView, OutcomeView, TallyView,
+    VerdictView,
+};
+use crate::grading::{ItemScore, QuestionScore, Scorecard, Tally};
+use crate::lab::{LabDefinition, ObservedRow, Points, Question};
+use crate::source::{Finding, SourceText, sanitize};
+use crate::submission::{AnswerValue, Submission};
+use serde::Serialize;
+
+#[derive(Serialize)]
+pub struct StudentPage {
+    page_title: String,
+    course: String,
+    lab_title: String,
+    students: Vec<StudentView>,
+    file: String,
+    cover: Vec<BoxView>,
+    findings_intro: &'static str,
+    findings: Vec<FindingView>,
+    total: TallyView,
+    legend: Vec<VerdictView>,
+    questions: Vec<QuestionView>,
+    observed: Vec<ObservedView>,
+    observed_levels: Vec<String>,
+    outcomes: Vec<OutcomeView>,
+}
+
+#[derive(Serialize)]
+struct StudentView {
+    label: &'static str,
+    id: String,
+    name: String,
+}
+
+#[derive(Serialize)]
+struct QuestionView {
+    anchor: String,
+    number: String,
+    title: String,
+    text_html: String,
+    #[serde(flatten)]
+    tally: TallyView,
+    short_answers: Vec<AnswerView>,
+    long_answers: Vec<AnswerView>,
+    figures: Vec<FigureView>,
+    remark: String,
+    items: Vec<ItemView>,
+}
+
+/// More findings than this are counted, not shown.
+const MOST_FINDINGS: usize = 60;
+
+pub fn page(kit: &ReportKit, submission: &Submission, scorecard: &Scorecard) -> StudentPage {
+    let lab = &kit.lab;
+    let students = students(submission);
+    let names: Vec<_> = students.iter().map(|s| s.name.as_str()).collect();
+    let questions = lab.questions.iter().zip(&kit.questions);
+    StudentPage {
+        page_title: format!("{} – {}", names.join(", "), lab.title),
+        course: lab.course.clone(),
+        lab_title: lab.title.clone(),
+        file: sanitize(&submission.source.name),
+        cover: cover(lab, scorecard),
+        findings_intro: if submission.readable {
+            "Only the items named here are affected; everything else was marked as usual."
+        } else {
+            "The file as a whole could not be read, so nothing in it could be marked."
+        },
+        findings: findings(submission),
+        total: TallyView::new(&scorecard.total),
+        legend: VerdictView::legend(),
+        questions: questions.map(|(q, kit)| question(q, kit, submission, scorecard)).collect(),
+        observed: lab.observed.iter().map(|row| observed(row, scorecard)).collect(),
+        observed_levels: lab.observed.first().map(level_titles).unwrap_or_default(),
+        outcomes: lab
+            .outcomes
+            .iter()
+            .map(|o| OutcomeView { id: o.id.clone(), text: o.text.clone() })
+            .collect(),
+        students,
+    }
+}
+
+fn students(submission: &Submission) -> Vec<StudentView> {
+    if submission.students.is_empty() {
+        let name = "not named in the file".to_owned();
+        return vec![StudentView { label: "Student", id: String::new(), name }];
+    }
+    let shown = |text: &str| text.chars().take(200).collect::<String>();
+    let view = |id: String, name: String| {
+        if name.trim().is_empty() {
+            StudentView { label: "Student", id: String::new(), name: id }
+        } else {
+            StudentView { label: "Student", id, name }
+        }
+    };
+    let students = submission.students.iter();
+    students.map(|s| view(sanitize(&shown(&s.id)), sanitize(&shown(&s.name)))).collect()
+}
+
+fn cover(lab: &LabDefinition, scorecard: &Scorecard) -> Vec<BoxView> {
+    let waiting = "waiting for a person";
+    let title = |id: &str| {
+        lab.cover.rows.iter().find(|row| row.id == id).map_or_else(|| id.to_owned(), |row| row.title.clone())
+    };
+    let boxes = scorecard.cover.iter().map(|(id, possible, earned)| BoxView {
+        title: title(id),
+        earned: earned.map(|p| p.to_string()),
+        possible: possible.to_string(),
+        waiting,
+    });
+    let total = BoxView {
+        title: "Total".to_owned(),
+        earned: scorecard.cover_total.map(|p| p.to_string()),
+        possible: lab.cover.total.to_string(),
+        waiting,
+    };
+    boxes.chain([total]).collect()
+}
+
+fn question(
+    question: &Question,
+    kit: &QuestionKit,
+    submission: &Submission,
+    scorecard: &Scorecard,
+) -> QuestionView {
+    let score = scorecard.questions.iter().find(|s| s.id == question.id);
+    let unscored = Tally { possible: question.points, ..Tally::default() };
+    let (mut short_answers, mut long_answers) = (Vec::new(), Vec::new());
+    for field in &kit.fields {
+        let answer = submission.answers.get(&field.path);
+        let view = AnswerView {
+            prompt: field.prompt.clone(),
+            yours_html: answers::yours(answer, &field.prompt),
+            reference_heading: answers::reference_heading(field.kind),
+            reference_html: field.reference_html.clone(),
+        };
+        if answers::is_short(field.kind) {
+            short_answers.push(view);
+        } else {
+            long_answers.push(view);
+        }
+    }
+    QuestionView {
+        anchor: kit.anchor.clone(),
+        number: question.number.clone(),
+        title: question.title.clone(),
+        text_html: kit.text_html.clone(),
+        tally: TallyView::new(score.map_or(&unscored, |s| &s.tally)),
+        short_answers,
+        long_answers,
+        figures: kit.pictures.iter().flat_map(|p| p.for_student(submission)).collect(),
+        remark: kit.remark.clone(),
+        items: score.map(|s| items(question, s, submission)).unwrap_or_default(),
+    }
+}
+
+fn items(question: &Question, score: &QuestionScore, submission: &Submission) -> Vec<ItemView> {
+    score.items.iter().map(|i| item(question, i, submission)).collect()
+}
+
+fn item(question: &Question, item: &ItemScore, submission: &Submission) -> ItemView {
+    let field = question.criteria.iter().find(|c| c.id == item.id).map(|c| c.field.as_str());
+    let answer = field.and_then(|f| submission.answers.get(f)).and_then(|a| a.value.as_ref().ok());
+    let quotes = match answer {
+        Some(AnswerValue::Prose(text)) => prose::quotes(text, &item.evidence.phrases),
+        _ => Vec::new(),
+    };
+    ItemView {
+        anchor: item_anchor(&item.id),
+        title: item.title.clone(),
+        verdict: VerdictView::of(item.verdict),
+        earned: item.earned.to_string(),
+        possible: item.possible.to_string(),
+        expected: sanitize(&item.evidence.expected),
+        found: cropped(&item.evidence.found),
+        reason: sanitize(&item.evidence.reason),
+        quotes: quotes.into_iter().map(Into::into).collect(),
+        provisional: item.provisional,
+        override_reason: item.override_reason.as_deref().map(sanitize),
+        place: item.position.map(|p| format!("line {}, column {}", p.line, p.column)),
+    }
+}
+
+/// What was found, on one line and not longer than a paragraph.
+fn cropped(found: &str) -> String {
+    const LONGEST: usize = 300;
+    let start: String = found.chars().take(LONGEST).collect();
+    let more = if start.len() < found.len() { " …" } else { "" };
+    format!("{}{more}", sanitize(&start))
+}
+
+fn findings(submission: &Submission) -> Vec<FindingView> {
+    let mut views: Vec<_> =
+        submission.findings.iter().take(MOST_FINDINGS).map(|f| finding(f, &submission.source)).collect();
+    let more = submission.findings.len() - views.len();
+    if more > 0 {
+        let message = format!("{more} more findings of this file are not shown.");
+        views.push(finding(&Finding::note("findings.more", message), &submission.source));
+    }
+    views
+}
+
+fn finding(finding: &Finding, source: &SourceText) -> FindingView {
+    let mut view = FindingView {
+        severity: finding.severity.word(),
+        message: sanitize(&finding.message),
+        place: None,
+        line_number: String::new(),
+        line: None,
+        caret: String::new(),
+        help: finding.help.as_deref().map(sanitize),
+    };
+    if let Some(span) = finding.span {
+        let at = source.position(span.start);
+        let name = sanitize(&source.name);
+        view.place = Some(format!("{name}, line {}, column {}", at.line, at.column));
+        let (line, caret) = excerpt(source, span.start, span.end);
+        view.line_number = at.line.to_string();
+        view.caret = format!("{}{caret}", " ".repeat(view.line_number.len() + 1));
+        view.line = Some(line);
+    }
+    view
+}
+
+/// The line about bytes `start..end`, cut to what is near, and the carets to set under it.
+fn excerpt(source: &SourceText, start: usize, end: usize) -> (String, String) {
+    const BEFORE: usize = 50;
+    const AFTER: usize = 60;
+    let floor = |mut i: usize| {
+        i = i.min(source.text.len());
+        while !source.text.is_char_boundary(i) {
+            i -= 1;
+        }
+        i
+    };
+    let (start, end) = (floor(start), floor(end.max(start)));
+    let left = source.text[..start].rfind('\n').map_or(0, |i| i + 1);
+    let right = source.text[start..].find(['\n', '\r']).map_or(source.text.len(), |i| start + i);
+    let before: Vec<char> = source.text[left..start].chars().collect();
+    let kept = before.len().min(BEFORE);
+    let lead = if kept < before.len() { "…" } else { "" };
+    let before: String = before[before.len() - kept..].iter().collect();
+    let after: String = source.text[start..right].chars().take(AFTER).collect();
+    let trail = if after.len() < right - start { "…" } else { "" };
+    let marked = source.text[start..end.min(right).max(start)].chars().take(AFTER).count().max(1);
+    let tidy = |t: &str| sanitize(&t.replace('\t', " "));
+    let line = format!("{lead}{}{}{trail}", tidy(&before), tidy(&after));
+    (line, format!("{}{}", " ".repeat(lead.chars().count() + kept), "^".repeat(marked)))
+}
+
+fn observed(row: &ObservedRow, scorecard: &Scorecard) -> ObservedView {
+    let earned = scorecard.observed.iter().find(|(id, _)| *id == row.id).and_then(|(_, points)| *points);
+    let within = |from: Points, to: Points| earned.is_some_and(|p| (from..=to).contains(&p));
+    ObservedView {
+        title: row.title.clone(),
+        outcomes: if row.outcomes.is_empty() {
+            String::new()
+        } else {
+            format!("outcome {}", row.outcomes.join(", "))
+        },
+        levels: row
+            .levels
+            .iter()
+            .map(|l| LevelView {
+                band: if l.from == l.to { l.from.to_string() } else { format!("{}–{}", l.from, l.to) },
+                text: l.text.clone(),
+                reached: within(l.from, l.to),
+            })
+            .collect(),
+        earned: earned.map(|p| p.to_string()),
+        waiting: "waiting for a person",
+        possible: row.points.to_string(),
+    }
+}
+
+fn level_titles(row: &ObservedRow) -> Vec<String> {
+    row.levels.iter().map(|l| l.title.clone()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(rows: &[(&str, &str, &str, &str, &str)]) {
+        for (what, text, marked, line, caret) in rows {
+            let source = SourceText::new("a.yaml", *text);
+            let start = text.find(marked).unwrap();
+            let got = excerpt(&source, start, start + marked.len());
+            assert_eq!((got.0.as_str(), got.1.as_str()), (*line, *caret), "{what}");
+        }
+    }
+
+    #[test]
+    fn the_caret_stands_under_the_word() {
+        check(&[
+            ("plain", "a: 1\nb: 1,5\nc: 2", "1,5", "b: 1,5", "   ^^^"),
+            ("letters of several bytes", "θ: ½ö", "ö", "θ: ½ö", "    ^"),
+            ("tab", "\tb: x", "x", " b: x", "    ^"),
+            ("to the end of the line only", "a: [1\n2]", "[1\n2]", "a: [1", "   ^^"),
+            ("windows line end", "a: x\r\nb", "x", "a: x", "   ^"),
+        ]);
+    }
+
+    #[test]
+    fn long_lines_are_cut_around_the_place() {
+        let text = format!("{}bad{}", "x".repeat(500), "y".repeat(500));
+        let (line, caret) = excerpt(&SourceText::new("a", text), 500, 503);
+        assert!(line.chars().count() < 120 && line.starts_with('…') && line.ends_with('…'));
+        assert_eq!(caret.find('^'), Some(51));
+        assert_eq!(
+            excerpt(&SourceText::new("a", "é"), 1, 99).1,
+            "^",
+            "offsets inside and beyond the text do no harm"
+        );
+    }
+}

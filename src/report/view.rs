@@ -1,0 +1,174 @@
+//! What the templates place. Every number is already text; fields ending in `_html` are markup made by this module.
+
+use super::prose::Quote;
+use crate::grading::{Tally, Verdict};
+use crate::lab::Points;
+use serde::Serialize;
+
+/// A drawn figure.
+#[derive(Clone, Debug, Serialize)]
+pub struct FigureView {
+    pub svg_html: String,
+    pub caption: String,
+}
+
+/// A bar in percent of its length: certain, and waiting for a person.
+#[derive(Clone, Debug, Serialize)]
+pub struct BarView {
+    pub earned: String,
+    pub provisional: String,
+}
+
+impl BarView {
+    pub fn new(earned: Points, provisional: Points, possible: Points) -> Self {
+        let share = |p: Points| {
+            let whole = possible.0.max(1) as f64;
+            format!("{:.0}", (100.0 * p.0 as f64 / whole).clamp(0.0, 100.0))
+        };
+        Self { earned: share(earned - provisional), provisional: share(provisional) }
+    }
+}
+
+/// Points earned and possible, and how many of them are provisional, in words.
+#[derive(Clone, Debug, Serialize)]
+pub struct TallyView {
+    pub earned: String,
+    pub possible: String,
+    /// Empty when none are.
+    pub provisional: String,
+    pub bar: BarView,
+}
+
+impl TallyView {
+    pub fn new(tally: &Tally) -> Self {
+        Self {
+            earned: tally.earned.to_string(),
+            possible: tally.possible.to_string(),
+            provisional: provisional_words(tally.provisional),
+            bar: BarView::new(tally.earned, tally.provisional, tally.possible),
+        }
+    }
+}
+
+/// `1.5 to be confirmed`, or nothing.
+pub fn provisional_words(points: Points) -> String {
+    if points == Points::ZERO { String::new() } else { format!("{points} to be confirmed") }
+}
+
+/// A verdict as symbol and word, never colour alone.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct VerdictView {
+    pub class: &'static str,
+    pub symbol: &'static str,
+    pub word: &'static str,
+    pub meaning: &'static str,
+}
+
+impl VerdictView {
+    pub fn of(verdict: Verdict) -> Self {
+        let (class, symbol, word, meaning) = match verdict {
+            Verdict::Right => ("right", "✓", "right", "full points"),
+            Verdict::Partly => ("partly", "◐", "partly", "some of the points"),
+            Verdict::Wrong => ("wrong", "✗", "wrong", "no points"),
+            Verdict::Blank => ("blank", "○", "blank", "nothing was written"),
+            Verdict::Unreadable => ("unreadable", "?", "unreadable", "written, but cannot be read"),
+            Verdict::Unmarked => ("unmarked", "…", "unmarked", "a person has to mark it"),
+        };
+        Self { class, symbol, word, meaning }
+    }
+
+    /// All of them, for the legend.
+    pub fn legend() -> Vec<Self> {
+        use Verdict::{Blank, Partly, Right, Unmarked, Unreadable, Wrong};
+        [Right, Partly, Wrong, Blank, Unreadable, Unmarked].map(Self::of).to_vec()
+    }
+}
+
+/// A box of the cover sheet.
+#[derive(Clone, Debug, Serialize)]
+pub struct BoxView {
+    pub title: String,
+    /// `None` while it waits.
+    pub earned: Option<String>,
+    pub possible: String,
+    /// What it waits for.
+    pub waiting: &'static str,
+}
+
+/// One field of a question: what was asked, written, and right.
+#[derive(Clone, Debug, Serialize)]
+pub struct AnswerView {
+    pub prompt: String,
+    pub yours_html: String,
+    pub reference_heading: &'static str,
+    pub reference_html: String,
+}
+
+#[derive(Clone, Debug, Serialize)]
+pub struct ItemView {
+    pub anchor: String,
+    pub title: String,
+    pub verdict: VerdictView,
+    pub earned: String,
+    pub possible: String,
+    pub expected: String,
+    pub found: String,
+    pub reason: String,
+    pub quotes: Vec<QuoteView>,
+    pub provisional: bool,
+    pub override_reason: Option<String>,
+    /// `line 12, column 3`
+    pub place: Option<String>,
+}
+
+/// A quotation and what it was taken for.
+#[derive(Clone, Debug, Serialize)]
+pub struct QuoteView {
+    #[serde(flatten)]
+    pub quote: Quote,
+    pub stance: &'static str,
+}
+
+impl From<Quote> for QuoteView {
+    fn from(quote: Quote) -> Self {
+        let stance = if quote.against { "speaks against:" } else { "taken for:" };
+        Self { quote, stance }
+    }
+}
+
+#[derive(Clone, Debug, Serialize)]
+pub struct FindingView {
+    pub severity: &'static str,
+    pub message: String,
+    pub place: Option<String>,
+    pub line_number: String,
+    /// The line it is about, cut to what is near; `None` without a place.
+    pub line: Option<String>,
+    /// Spaces and carets under the line.
+    pub caret: String,
+    pub help: Option<String>,
+}
+
+/// A level of an observed row.
+#[derive(Clone, Debug, Serialize)]
+pub struct LevelView {
+    pub band: String,
+    pub text: String,
+    pub reached: bool,
+}
+
+#[derive(Clone, Debug, Serialize)]
+pub struct ObservedView {
+    pub title: String,
+    pub outcomes: String,
+    pub levels: Vec<LevelView>,
+    pub earned: Option<String>,
+    pub waiting: &'static str,
+    pub possible: String,
+}
+
+#[derive(Clone, Debug, Serialize)]
+pub struct OutcomeView {
+    pub id: String,
+    pub text: String,
+}
