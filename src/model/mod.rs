@@ -5,6 +5,8 @@ mod equations;
 mod equilibrium;
 mod exact;
 mod linearization;
+mod motion;
+mod program;
 
 pub use compare::{Comparison, ComparisonRun, compare};
 pub use equations::{Coordinate, Equation, Model, ModelError};

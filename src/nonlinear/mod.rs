@@ -8,6 +8,7 @@ mod ode;
 mod realization;
 mod run;
 mod signal;
+mod thinning;
 
 pub use chain::{Block, Chain, ChainError, simulate, without_nonlinearities};
 pub use fixed_step::simulate_fixed_step;
@@ -15,3 +16,4 @@ pub use nonlinearity::Nonlinearity;
 pub use ode::{OdeError, Trajectory, integrate};
 pub use run::Run;
 pub use signal::Signal;
+pub(crate) use thinning::Thinning;

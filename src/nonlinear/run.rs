@@ -1,3 +1,5 @@
+use super::thinning::Thinning;
+
 /// What a run of a chain gave: the output, and where something switched.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
@@ -90,14 +92,13 @@ pub(super) fn halfway(start: [f64; 3], end: [f64; 3], length: f64) -> f64 {
 
 /// Points along `pieces`, so few that lines between them still stay within `tolerance` of the curve.
 fn draw(pieces: &[Piece], tolerance: f64, kept: &[f64]) -> Vec<(f64, f64)> {
-    let mut thinned = Thinned { samples: Vec::new(), tolerance: tolerance * (1.0 - LOOKING), pending: None };
+    let mut thinning = Thinning::new([tolerance * (1.0 - LOOKING)]);
     let mut previous_end = None;
     for piece in pieces {
         let keep = |t: f64| kept.binary_search_by(|instant| instant.total_cmp(&t)).is_ok();
         let jumps = previous_end.is_some_and(|end: f64| (end - piece.start[0]).abs() > tolerance * 1e-3);
         if jumps || previous_end.is_none() || keep(piece.from) {
-            thinned.flush();
-            thinned.keep((piece.from, piece.start[0]));
+            thinning.add_kept((piece.from, [piece.start[0]]));
         }
         // A line across h misses a curve by h²/8 of its second rate.
         let length = piece.to - piece.from;
@@ -106,57 +107,12 @@ fn draw(pieces: &[Piece], tolerance: f64, kept: &[f64]) -> Vec<(f64, f64)> {
         let parts = if parts.is_nan() { 1.0 } else { parts };
         for part in 1..parts as usize {
             let t = piece.from + length * part as f64 / parts;
-            thinned.add((t, piece.at(t)));
+            thinning.add((t, [piece.at(t)]));
         }
-        thinned.add((piece.to, piece.end[0]));
+        thinning.add((piece.to, [piece.end[0]]));
         previous_end = Some(piece.end[0]);
     }
-    thinned.flush();
-    thinned.samples
-}
-
-/// Drops points a straight line passes within `tolerance` of.
-struct Thinned {
-    samples: Vec<(f64, f64)>,
-    tolerance: f64,
-    /// The last point seen, and the slopes from the last sample that miss nothing dropped so far.
-    pending: Option<((f64, f64), f64, f64)>,
-}
-
-impl Thinned {
-    fn keep(&mut self, point: (f64, f64)) {
-        if self.samples.last() != Some(&point) {
-            self.samples.push(point);
-        }
-        self.pending = None;
-    }
-
-    fn flush(&mut self) {
-        if let Some((point, ..)) = self.pending {
-            self.keep(point);
-        }
-    }
-
-    fn add(&mut self, point: (f64, f64)) {
-        if let Some((last, low, high)) = self.pending {
-            let slope = self.slope(point);
-            if !(low..=high).contains(&slope) {
-                self.keep(last);
-            }
-        }
-        let (low, high) =
-            self.pending.map_or((f64::NEG_INFINITY, f64::INFINITY), |(_, low, high)| (low, high));
-        let below = self.slope((point.0, point.1 - self.tolerance));
-        let above = self.slope((point.0, point.1 + self.tolerance));
-        self.pending = Some((point, low.max(below), high.min(above)));
-    }
-
-    fn slope(&self, point: (f64, f64)) -> f64 {
-        match self.samples.last() {
-            Some(anchor) if point.0 > anchor.0 => (point.1 - anchor.1) / (point.0 - anchor.0),
-            _ => 0.0,
-        }
-    }
+    thinning.finish().into_iter().map(|(t, [y])| (t, y)).collect()
 }
 
 #[cfg(test)]
