@@ -1,4 +1,5 @@
 use crate::algebra::{Expression, ExpressionError, NodeKind};
+use crate::nonlinear::OdeError;
 
 /// A generalized coordinate: `x` in m, say.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,6 +61,11 @@ pub enum ModelError {
     NoValue { name: String },
     #[error("`{function}` is not defined at this point")]
     Undefined { function: String },
+    /// `equation` counts from 1.
+    #[error("equation {equation} is not linear in `{symbol}`, so it cannot be solved for the accelerations")]
+    NotLinear { equation: usize, symbol: String },
+    #[error("the equations cannot be followed after an impulse of {push}: {source}")]
+    Simulation { push: f64, source: OdeError },
 }
 
 /// The most often a coordinate is differentiated.
