@@ -187,7 +187,7 @@ fn why(error: &ResponseError) -> String {
             "its numerator is of degree {num} and its denominator of degree {den}, {} too many",
             counted(num.saturating_sub(*den), "power")
         ),
-        ResponseError::Roots(e) => e.to_string(),
+        other => other.to_string(),
     }
 }
 
