@@ -37,3 +37,42 @@ fn unknown(name: &str) -> LoadError {
     let ids: Vec<&str> = EMBEDDED.iter().map(|(id, _)| *id).collect();
     LoadError::Unknown { name: sanitize(name), help: suggestion(name, &ids) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_default_is_embedded() {
+        assert!(embedded().iter().any(|(id, _)| *id == DEFAULT));
+        assert_eq!(load(DEFAULT).unwrap().id, DEFAULT);
+    }
+
+    #[test]
+    fn an_unknown_name_lists_the_known_ones() {
+        assert_eq!(
+            load("ee361-lab4").unwrap_err().to_string(),
+            "no lab is called `ee361-lab4`, and no file or folder is there; did you mean `ee361-lab3`?"
+        );
+        assert_eq!(
+            load("zzz").unwrap_err().to_string(),
+            "no lab is called `zzz`, and no file or folder is there; known: `ee361-lab3`"
+        );
+    }
+
+    #[test]
+    fn a_path_is_a_file_or_a_folder_with_a_lab_in_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("lab.yaml");
+        std::fs::write(&file, EMBEDDED[0].1).unwrap();
+        for path in [folder.path(), &file] {
+            assert_eq!(load(path.to_str().unwrap()).unwrap().id, "ee361-lab3");
+        }
+        let missing = folder.path().join("none.yaml");
+        assert!(matches!(load(missing.to_str().unwrap()), Err(LoadError::Io { .. })));
+        std::fs::write(&file, b"\xff\xff").unwrap();
+        assert!(matches!(load(file.to_str().unwrap()), Err(LoadError::NotText { .. })));
+        std::fs::write(&file, "lab: x").unwrap();
+        assert!(matches!(load(file.to_str().unwrap()), Err(LoadError::Invalid(_))));
+    }
+}

@@ -1,10 +1,12 @@
 /// The known name closest to `name`: smallest Damerau–Levenshtein distance of at most a third of the length, ties by Jaro–Winkler.
 pub(super) fn nearest<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
-    let limit = (name.chars().count() / 3).max(1);
+    let length = name.chars().count();
+    let limit = (length / 3).max(1);
     known
         .iter()
         .map(|k| (strsim::damerau_levenshtein(name, k), strsim::jaro_winkler(name, k), *k))
-        .filter(|(distance, _, _)| *distance <= limit)
+        // Of a single letter, everything is one change away.
+        .filter(|(distance, _, k)| *distance <= limit && *distance < length || name.eq_ignore_ascii_case(k))
         .min_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)))
         .map(|(_, _, k)| k)
 }
@@ -36,6 +38,8 @@ mod tests {
             ("uprigth", Some("upright")),
             ("thata", Some("theta")),
             ("sideways", None),
+            ("x", None),
+            ("THETA", Some("theta")),
             ("", None),
         ] {
             assert_eq!(nearest(name, &known), near, "{name}");

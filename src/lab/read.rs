@@ -1,6 +1,6 @@
 use super::file::LabFile;
 use super::names::suggestion;
-use crate::source::{Finding, Node, SourceText, Span, sanitize};
+use crate::source::{Finding, Node, SourceText, Span, Value, sanitize};
 use serde_yaml::{Error, Location};
 
 /// The file's shape: YAML, and the keys it must and may have. The first thing wrong with the shape ends the reading.
@@ -14,10 +14,12 @@ pub(super) fn read(source: &SourceText) -> Result<(LabFile, Node), Finding> {
     })?;
     // The tree was read within budgets, so the second reading needs none of its own.
     let options = serde_yaml::options! { with_snippet: false };
-    serde_yaml::from_str_with_options(&source.text, options).map(|file| (file, tree)).map_err(|e| finding(&e))
+    serde_yaml::from_str_with_options(&source.text, options)
+        .map_err(|error| finding(&error, &tree))
+        .map(|file| (file, tree))
 }
 
-fn finding(error: &Error) -> Finding {
+fn finding(error: &Error, tree: &Node) -> Finding {
     let (code, message, help) = match error {
         Error::SerdeUnknownField { field, expected, .. } => {
             ("lab.unknown_key", format!("there is no key `{field}` here"), Some(suggestion(field, expected)))
@@ -28,6 +30,19 @@ fn finding(error: &Error) -> Finding {
         Error::SerdeMissingField { field, .. } => {
             ("lab.missing_key", format!("the key `{field}` is missing here"), None)
         }
+        Error::Unexpected { expected, .. } => {
+            let wanted = match *expected {
+                "mapping start" => "a mapping (`key: value`) is wanted here",
+                "sequence start" => "a list (`[a, b]`, or lines that begin with `- `) is wanted here",
+                _ => "a single value is wanted here, not a list or a mapping",
+            };
+            ("lab.shape", wanted.to_owned(), None)
+        }
+        Error::NullIntoString { .. } => ("lab.shape", "a value is missing here".to_owned(), None),
+        Error::ExpectedMappingEndAfterEnumVariantValue { .. } => {
+            ("lab.shape", "only one key can stand here, and this is another".to_owned(), None)
+        }
+        Error::Eof { .. } => ("lab.shape", "the file is empty".to_owned(), None),
         other => {
             let text = other.to_string();
             let line = text.lines().next().unwrap_or_default();
@@ -39,9 +54,30 @@ fn finding(error: &Error) -> Finding {
         Some(help) => finding.with_help(help),
         None => finding,
     };
-    match error.location() {
-        Some(location) => finding.at(span(location)),
+    match error.location().map(span) {
+        Some(place) if code == "lab.missing_key" => finding.at(owner(tree, place.start).unwrap_or(place)),
+        Some(place) => finding.at(place),
         None => finding,
+    }
+}
+
+/// The key whose mapping begins, or has a key, at byte `at`; of the whole file, its first key.
+fn owner(node: &Node, at: usize) -> Option<Span> {
+    match &node.value {
+        Value::Mapping(entries) => {
+            let inner = entries.iter().find_map(|(_, key, child)| match &child.value {
+                Value::Mapping(below)
+                    if child.span.start == at || below.iter().any(|(_, k, _)| k.start == at) =>
+                {
+                    Some(*key)
+                }
+                _ => owner(child, at),
+            });
+            let own = || entries.iter().any(|(_, key, _)| key.start == at).then(|| entries.first()).flatten();
+            inner.or_else(|| own().map(|(_, key, _)| *key))
+        }
+        Value::Sequence(items) => items.iter().find_map(|item| owner(item, at)),
+        Value::Null | Value::Scalar(_) => None,
     }
 }
 

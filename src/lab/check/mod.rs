@@ -7,6 +7,8 @@ mod models;
 mod questions;
 mod scalars;
 mod simulations;
+#[cfg(test)]
+mod tests;
 
 use super::file::{LabFile, Text};
 use super::{LabDefinition, LabErrors, Outcome, Parameter, SystemRef, model_answer, read, sheet};
@@ -34,6 +36,8 @@ fn definition(file: &LabFile, tree: &Node, text: SourceText) -> Result<LabDefini
         Some(lab) if findings.is_empty() => Ok(LabDefinition { text, ..lab }),
         _ => {
             findings.sort_by_key(|finding| finding.span.map(|span| span.start));
+            // What an alias repeats is said once.
+            findings.dedup();
             Err(LabErrors { source: text, findings })
         }
     }

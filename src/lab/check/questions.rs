@@ -87,9 +87,9 @@ impl Checker<'_> {
                 id.value
             );
             let more = if sum < points {
-                format!("find {} more points for a criterion", points - sum)
+                format!("give {} more to a criterion", points - sum)
             } else {
-                format!("take {} points from a criterion", sum - points)
+                format!("take {} from a criterion", sum - points)
             };
             self.error(
                 "lab.points",

@@ -1,0 +1,491 @@
+use super::*;
+use crate::lab::{Check, CoverSource, Points, embedded};
+use crate::source::Severity;
+use crate::submission::FieldKind;
+
+fn embedded_text() -> &'static str {
+    embedded()[0].1
+}
+
+fn parse(text: &str) -> Result<LabDefinition, LabErrors> {
+    LabDefinition::parse(SourceText::new("lab.yaml", text))
+}
+
+/// `code`, `line:column` as the text at that place, message and help of every finding.
+fn findings(text: &str) -> Vec<(String, String, String)> {
+    match parse(text) {
+        Ok(_) => Vec::new(),
+        Err(errors) => errors
+            .findings
+            .iter()
+            .map(|finding| {
+                assert_eq!(finding.severity, Severity::Error);
+                let place = finding.span.map(|span| text[span.start..span.end].to_owned());
+                (
+                    place.unwrap_or_else(|| "nowhere".to_owned()),
+                    finding.message.clone(),
+                    finding.help.clone().unwrap_or_default(),
+                )
+            })
+            .collect(),
+    }
+}
+
+#[test]
+fn the_embedded_lab_is_right() {
+    let lab = parse(embedded_text()).unwrap();
+    let points: Vec<(&str, Points)> = lab.questions.iter().map(|q| (q.id.as_str(), q.points)).collect();
+    let expected = [
+        ("expect_hanging", 2),
+        ("expect_upright", 2),
+        ("hanging.transfer_function", 5),
+        ("hanging.response", 5),
+        ("upright.transfer_function", 5),
+        ("upright.response", 5),
+        ("perception", 6),
+        ("saturation", 4),
+        ("dead_zone", 4),
+        ("backlash", 4),
+        ("battery.nonlinearity", 1),
+        ("remote_car.nonlinearity", 1),
+        ("speaker.nonlinearity", 1),
+    ];
+    assert_eq!(points, expected.map(|(id, points)| (id, Points(points * 100))));
+    let total: Points = lab.questions.iter().map(|q| q.points).sum();
+    assert_eq!(total, Points(4500));
+    let observed: Points = lab.observed.iter().map(|row| row.points).sum();
+    assert_eq!((lab.observed.len(), observed), (7, Points(3500)));
+    assert_eq!(lab.cover.total, Points(10000));
+    assert_eq!(lab.cover.rows[0].from, CoverSource::QuestionsAndObserved);
+    assert_eq!(lab.parameters.len(), 6);
+    assert_eq!(lab.simulations.len(), 4);
+    assert_eq!(lab.sheet.symbols.len(), 6);
+}
+
+#[test]
+fn every_field_has_a_model_answer_but_the_figures() {
+    let lab = parse(embedded_text()).unwrap();
+    for field in &lab.sheet.fields {
+        let answered = lab.model_answer.answers.contains_key(&field.path);
+        assert_eq!(answered, field.kind != FieldKind::Figure, "{}", field.path);
+    }
+}
+
+#[test]
+fn fields_know_what_they_are_about() {
+    let lab = parse(embedded_text()).unwrap();
+    let about = |path: &str| {
+        let field = lab.sheet.fields.iter().find(|field| field.path == path).unwrap();
+        (field.about.as_deref(), field.response, field.required)
+    };
+    let impulse = Some(crate::lti::InputKind::Impulse);
+    assert_eq!(about("hanging.transfer_function"), (Some("cart.hanging"), None, true));
+    assert_eq!(about("hanging.response.shape"), (Some("cart.hanging"), impulse, true));
+    assert_eq!(about("upright.response.data"), (Some("cart.upright"), impulse, false));
+    assert_eq!(about("saturation.data"), (Some("saturation"), None, false));
+    assert_eq!(about("battery.nonlinearity"), (None, None, true));
+}
+
+#[test]
+fn a_wrong_lab_says_where_and_what_to_do() {
+    #[track_caller]
+    fn check(old: &str, new: &str, place: &str, message: &str, help: &str) {
+        let text = embedded_text();
+        assert!(text.contains(old), "`{old}` is not in the lab");
+        let text = text.replacen(old, new, 1);
+        let expected = (place.to_owned(), message.to_owned(), help.to_owned());
+        assert_eq!(findings(&text), [expected], "`{old}` → `{new}`");
+    }
+
+    // Names and ids.
+    check(
+        "lab: ee361-lab3",
+        "lab: EE361",
+        "EE361",
+        "the lab id `EE361` is not well-formed",
+        "use lower-case letters, digits, `_` and `-`, a letter first",
+    );
+    check(
+        "        output: theta",
+        "        output: thata",
+        "thata",
+        "there is no coordinate `thata`",
+        "did you mean `theta`?",
+    );
+    check("        input: F", "        input: u", "u", "there is no input `u`", "known: `F`");
+    check(
+        "at: {theta: pi}",
+        "at: {phi: pi}",
+        "phi",
+        "there is no coordinate or input `phi`",
+        "known: `x`, `theta`, `F`",
+    );
+    check(
+        "shown_in: dead_zone",
+        "shown_in: deadzone",
+        "deadzone",
+        "there is no question `deadzone`",
+        "did you mean `dead_zone`?",
+    );
+    check(
+        "about: cart.hanging",
+        "about: cart.hangin",
+        "cart.hangin",
+        "there is no operating point or simulation `cart.hangin`",
+        "did you mean `cart.hanging`?",
+    );
+    check("outcomes: [a, c]", "outcomes: [a, d]", "d", "there is no outcome `d`", "known: `a`, `b`, `c`");
+    check(
+        "parameters:\n",
+        "parameters:\n  s: {value: 1}\n",
+        "s",
+        "the parameter name `s` has another meaning in formulas",
+        "choose another name",
+    );
+    check(
+        "    inputs:\n",
+        "    inputs:\n      M: {}\n",
+        "M",
+        "the input `M` has the name of something else",
+        "choose another name",
+    );
+
+    // Shape.
+    check("\ntotal: 45", "\ntotl: 45", "totl", "there is no key `totl` here", "did you mean `total`?");
+    check(
+        "- saturation: {limit: 5}",
+        "- saturatoin: {limit: 5}",
+        "saturatoin",
+        "`saturatoin` is not known here",
+        "did you mean `saturation`?",
+    );
+    check("\ntotal: 45\n", "\n", "lab", "the key `total` is missing here", "");
+    check("{limit: 5}", "{limit: [5]}", "[", "a single value is wanted here, not a list or a mapping", "");
+    check(
+        "accepted: [9.8, 9.80665, 10]",
+        "accepted: 9.8",
+        "9.8",
+        "a list (`[a, b]`, or lines that begin with `- `) is wanted here",
+        "",
+    );
+    check("title: Dead zone", "title:", "", "a value is missing here", "");
+    check("\ntotal: 45", "\nlab: 45", "lab", "the key `lab` is given twice", "");
+
+    // Numbers.
+    check(
+        "value: 9.81",
+        "value: 9,81",
+        "9,81",
+        "`9,81` is not a number",
+        "write a decimal such as `0.2083` or `1e-3`",
+    );
+    check(
+        "accepted: [9.8,",
+        "accepted: [9.810,",
+        "9.810",
+        "`g` accepts its own value `9.810` again",
+        "list only the other values",
+    );
+    check("{limit: 5}", "{limit: -5}", "-5", "the limit of a saturation must be above 0, not -5", "");
+    check("duty: 0.5", "duty: 50", "50", "a duty must be 0 to 1, not 50", "0.01 is 1 %");
+    check(
+        "{relative: 0.005}",
+        "{relative: 5}",
+        "5",
+        "a relative tolerance must be 0 to 1, not 5",
+        "0.01 is 1 %",
+    );
+    check("absolute: 0.001", "absolute: -0.001", "-0.001", "a tolerance cannot be negative: -0.001", "");
+    check("figures: 2", "figures: two", "two", "figures must be a whole number of 1 to 15, not `two`", "");
+    check("pushes: [0.1,", "pushes: [0,", "0", "a push of 0 moves nothing", "");
+    check(
+        "num: [0.2083], den: [1, 1.71]",
+        "num: [1, 0, 0], den: [1, 1.71]",
+        "[",
+        "the transfer function is improper: its numerator (degree 2) outranks its denominator (degree 1)",
+        "",
+    );
+
+    // Equations, with places inside them.
+    check(
+        "b*x' + m*l",
+        "b*x' + m*L",
+        "L",
+        "`L` is not a name we know",
+        "did you mean `l`? the names are `M`, `b`, `m`, `l`, `I`, `g`, `x`, `theta`, `F`",
+    );
+    check(
+        "m*g*l*sin(theta)",
+        "m*g'*l*sin(theta)",
+        "g'",
+        "`g` is no coordinate, so it has no derivative",
+        "write `g` without primes",
+    );
+    check(
+        "(M + m)*x''",
+        "(M + m)*x'''",
+        "x'''",
+        "`x` is differentiated 3 times: two is the most polemark takes",
+        "",
+    );
+    check(
+        "at: {theta: pi}",
+        "at: {theta: pi*l}",
+        "l",
+        "`l` cannot stand here: a place of rest is made of numbers and `pi`",
+        "write its value",
+    );
+
+    // Points.
+    check(
+        "\ntotal: 45",
+        "\ntotal: 50",
+        "50",
+        "questions add up to 45 points, but `total` is 50",
+        "change `total` to 45, or the points of a question",
+    );
+    check(
+        "title: Why it does so\n        points: 1",
+        "title: Why it does so\n        points: 2.5",
+        "6",
+        "the criteria of `perception` add up to 7.5 points, but the question is worth 6",
+        "change `points` to 7.5, or take 1.5 from a criterion",
+    );
+    check(
+        "title: Why it does so\n        points: 1",
+        "title: Why it does so\n        points: 0.25",
+        "6",
+        "the criteria of `perception` add up to 5.25 points, but the question is worth 6",
+        "change `points` to 5.25, or give 0.75 more to a criterion",
+    );
+    check(
+        "points: 35, from: by_hand",
+        "points: 30, from: by_hand",
+        "100",
+        "the rows of the cover sheet add up to 95 points, but its `total` is 100",
+        "change `total` to 95, or the points of a row",
+    );
+    check(
+        "from: 4, to: 5",
+        "from: 3, to: 5",
+        "3",
+        "the level `Meets expectation` is not below the one before it",
+        "give the best level first",
+    );
+    check(
+        "from: by_hand",
+        "from: hand",
+        "hand",
+        "there is no source of points `hand`",
+        "known: `questions_and_observed`, `questions`, `observed`, `by_hand`",
+    );
+
+    // Criteria.
+    check(
+        "check: nonlinearity, expected: backlash",
+        "check: shape, of: cart.hanging",
+        "shape",
+        "the check `shape` judges a field of kind `shape`, but `remote_car.nonlinearity` is of kind `nonlinearity`",
+        "",
+    );
+    check(
+        "        one_slip: 0.5",
+        "        needed: 1",
+        "1",
+        "`needed` means nothing to the check `denominator`",
+        "it takes `of`, `tolerance`, `one_slip`",
+    );
+    check(
+        "        data: data\n",
+        "        data: shape\n",
+        "shape",
+        "`hanging.response.shape` is of kind `shape`, but data is needed",
+        "",
+    );
+    check(
+        "        feature: final_value",
+        "        feature: final_valeu",
+        "final_valeu",
+        "there is no feature `final_valeu`",
+        "did you mean `final_value`?",
+    );
+    check("        span_s: 0.5\n", "", "plot", "the check `plot` needs the key `span_s`", "");
+    check(
+        "expected: backlash",
+        "expected: sluggish",
+        "sluggish",
+        "`sluggish` is no nonlinearity known here",
+        "write `saturation`, `dead zone`, `backlash`, `relay`, …",
+    );
+    check(
+        "              - sway*",
+        "              - sw*ay",
+        "sw*ay",
+        "in the phrase `sw*ay`, a `*` is not at the end of a word",
+        "`oscillat*` matches every word that begins so",
+    );
+    check("              - sway*", "              - \"\"", "\"\"", "the phrase is empty", "");
+    check(
+        "      hanging.motion:",
+        "      bottom.motion:",
+        "bottom.motion",
+        "it is not said which field the criterion `bottom.motion` judges",
+        "add `field:` with one of `hanging`, `upright`",
+    );
+
+    // Expectations.
+    check(
+        "  cart.hanging.zeros:",
+        "  cart.hanging.zeroes:",
+        "cart.hanging.zeroes",
+        "`cart.hanging` has no `zeroes` in the reference",
+        "did you mean `zeros`?",
+    );
+    check(
+        "  cart.hanging.zeros:",
+        "  cart.hangin.zeros:",
+        "cart.hangin.zeros",
+        "`cart.hangin.zeros` begins with no operating point or simulation of this lab",
+        "did you mean `cart.hanging`?",
+    );
+    check(
+        "{values: [0]}",
+        "{values: [O]}",
+        "O",
+        "`O` is no number, complex number or word",
+        "write `0.25`, `-0.25 + 5.5j` or `unstable`",
+    );
+}
+
+#[test]
+fn an_equilibrium_must_be_one() {
+    let text = embedded_text().replacen("at: {theta: pi}", "at: {theta: 1}", 1);
+    let found = findings(&text);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(found[0].0, "1");
+    assert!(found[0].1.starts_with("equation 2 does not balance at this point"), "{}", found[0].1);
+}
+
+#[test]
+fn all_errors_are_reported_in_file_order() {
+    let text = embedded_text()
+        .replacen("value: 9.81", "value: g", 1)
+        .replacen("{limit: 5}", "{limit: 0}", 1)
+        .replacen("check: nonlinearity, expected: backlash", "check: struct", 1)
+        .replacen("points: 35, from", "points: 3.555, from", 1);
+    let places: Vec<String> = findings(&text).into_iter().map(|(place, _, _)| place).collect();
+    assert_eq!(places, ["g", "0", "struct", "3.555"]);
+}
+
+#[test]
+fn an_error_shows_file_line_and_column() {
+    let text = embedded_text().replacen("\ntotal: 45", "\ntotal: 50", 1);
+    let errors = parse(&text).unwrap_err();
+    let line = text[..text.find("total: 50").unwrap()].matches('\n').count() + 1;
+    assert_eq!(
+        errors.to_string(),
+        format!("lab.yaml:{line}:8: error: questions add up to 45 points, but `total` is 50")
+    );
+    assert!(errors.render(false).contains(&format!("--> lab.yaml:{line}:8\n")), "{}", errors.render(false));
+}
+
+#[test]
+fn a_model_answer_that_cannot_be_read_is_found_in_the_lab() {
+    let text = embedded_text().replacen("0.41202s + 0.05886)", "0.41202s + 0.05886", 1);
+    let errors = parse(&text).unwrap_err();
+    assert_eq!(errors.findings.len(), 1, "{errors}");
+    let finding = &errors.findings[0];
+    assert_eq!(finding.code, "lab.model_answer");
+    let position = errors.source.position(finding.span.unwrap().start);
+    assert_eq!(position.line, text[..text.find("model_answer: -0.06s").unwrap()].matches('\n').count() + 1);
+}
+
+#[test]
+fn the_template_reads_as_blank() {
+    let lab = parse(embedded_text()).unwrap();
+    let template = lab.answer_template();
+    let answer = crate::submission::read(
+        "template",
+        "template.yaml",
+        template.as_bytes(),
+        &lab.sheet,
+        &crate::submission::NoFiles,
+    );
+    let codes: Vec<&str> = answer.findings.iter().map(|finding| finding.code).collect();
+    assert_eq!(codes, ["student.missing"]);
+    assert_eq!(answer.answers.len(), 0);
+    assert!(answer.readable);
+    for field in &lab.sheet.fields {
+        assert!(template.contains(field.path.rsplit('.').next().unwrap()), "{}", field.path);
+    }
+    assert!(template.lines().all(|line| line.chars().count() <= 110), "{template}");
+}
+
+/// The example of docs/lab-file.md is a lab.
+#[test]
+fn the_documented_example_is_a_lab() {
+    let manual = include_str!("../../../docs/lab-file.md");
+    let start = manual.find("```yaml\n").unwrap() + "```yaml\n".len();
+    let end = start + manual[start..].find("```").unwrap();
+    let lab = parse(&manual[start..end]).unwrap();
+    assert_eq!(lab.id, "tank");
+    assert_eq!(lab.questions.len(), 2);
+}
+
+#[test]
+fn another_lab_is_only_another_file() {
+    let text = "\
+lab: suspension
+title: Mass, spring and damper
+parameters:
+  mass: {value: 2}
+  k: {value: 50, unit: N/m}
+  c: {value: 0.4e1}
+models:
+  car:
+    title: Quarter car
+    coordinates: {z: {unit: m}}
+    inputs: {u: {}}
+    equations: [\"mass*z'' = u - c*z' - k*(z + 3*z^3)\"]
+    operating_points:
+      rest:
+        title: At rest
+        input: u
+        output: z
+        comparison: {horizon_s: 3, departure: 0.1, pushes: [1]}
+total: 2.5
+questions:
+  g:
+    number: 1
+    title: Transfer function
+    points: 2
+    about: car.rest
+    answer: {kind: transfer_function, prompt: Z/U}
+    criteria:
+      right: {title: Right, points: 2, check: denominator, tolerance: {relative: 0}}
+  w:
+    number: 2
+    title: Words
+    points: 0.5
+    answer: {kind: prose, prompt: why}
+    criteria:
+      why:
+        title: Why
+        points: 0.5
+        check: concepts
+        needed: 1
+        concepts:
+          a: {title: damping, phrases: [damp*]}
+          b: {title: energy, phrases: [energy]}
+cover:
+  total: 2.5
+  rows: {all: {title: All, points: 2.5, from: questions}}
+";
+    let lab = parse(text).unwrap();
+    assert_eq!(lab.questions[1].points, Points(50));
+    assert!(
+        matches!(&lab.questions[1].criteria[0].check, Check::Concepts { needed: 1, concepts, .. } if concepts.len() == 2)
+    );
+    assert_eq!(lab.models[0].operating_points[0].at.values.len(), 2);
+    assert!(lab.model_answer.answers.is_empty());
+}
