@@ -45,6 +45,7 @@ pub fn number_mathml(number: &str) -> String {
     let body = match size.split_once('e') {
         None if size == "∞" => "<mi>∞</mi>".to_owned(),
         None if size.starts_with(|c: char| c.is_ascii_digit()) => format!("<mn>{size}</mn>"),
+        Some(("1", exponent)) => format!("<msup><mn>10</mn><mn>{}</mn></msup>", exponent.replace('-', "−")),
         Some((mantissa, exponent)) if mantissa.starts_with(|c: char| c.is_ascii_digit()) => {
             let exponent = exponent.replace('-', "−");
             format!("<mn>{mantissa}</mn><mo>·</mo><msup><mn>10</mn><mn>{exponent}</mn></msup>")
@@ -99,6 +100,7 @@ mod tests {
             ("5.59", "<mn>5.59</mn>"),
             ("-5.59", "<mrow><mo>−</mo><mn>5.59</mn></mrow>"),
             ("1.2e-7", "<mrow><mn>1.2</mn><mo>·</mo><msup><mn>10</mn><mn>−7</mn></msup></mrow>"),
+            ("1e6", "<msup><mn>10</mn><mn>6</mn></msup>"),
             ("-∞", "<mrow><mo>−</mo><mi>∞</mi></mrow>"),
             ("not a number", "<mtext>not a number</mtext>"),
         ] {

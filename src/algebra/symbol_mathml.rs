@@ -16,7 +16,8 @@ pub fn symbol_mathml(name: &str, primes: u8) -> String {
     let marked = match dots {
         None => base,
         Some(dots) if primes > 2 => format!("<msup>{base}<mi>{dots}</mi></msup>"),
-        Some(dots) => format!("<mover accent=\"true\">{base}<mo>{dots}</mo></mover>"),
+        // Not `accent`: without a mathematical font Chromium prints an accent into the letter.
+        Some(dots) => format!("<mover>{base}<mo>{dots}</mo></mover>"),
     };
     match index {
         None => marked,
@@ -79,11 +80,11 @@ mod tests {
     fn names_look_like_a_textbook() {
         check(&[
             ("x", 0, "<mi>x</mi>"),
-            ("x", 2, "<mover accent=\"true\"><mi>x</mi><mo>¨</mo></mover>"),
-            ("theta", 1, "<mover accent=\"true\"><mi>θ</mi><mo>˙</mo></mover>"),
+            ("x", 2, "<mover><mi>x</mi><mo>¨</mo></mover>"),
+            ("theta", 1, "<mover><mi>θ</mi><mo>˙</mo></mover>"),
             ("omega_n", 0, "<msub><mi>ω</mi><mi>n</mi></msub>"),
             ("J1", 0, "<msub><mi>J</mi><mn>1</mn></msub>"),
-            ("x1", 1, "<msub><mover accent=\"true\"><mi>x</mi><mo>˙</mo></mover><mn>1</mn></msub>"),
+            ("x1", 1, "<msub><mover><mi>x</mi><mo>˙</mo></mover><mn>1</mn></msub>"),
             ("mass", 0, "<mi>mass</mi>"),
             ("_a", 0, "<mi>_a</mi>"),
             ("<b>", 0, "<mi>&lt;b&gt;</mi>"),

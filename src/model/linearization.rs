@@ -365,8 +365,11 @@ mod tests {
         check_two_routes(&from_d);
     }
 
+    /// Name, plant, equilibrium as typed, error.
+    type Row<'a> = (&'a str, Plant, &'a [(&'a str, &'a str)], ModelError);
+
     #[track_caller]
-    fn check_errors(rows: &[(&str, Plant, &[(&str, &str)], ModelError)]) {
+    fn check_errors(rows: &[Row]) {
         for (name, plant, at, expected) in rows {
             let (input, output) = (plant.inputs[0], plant.coordinates[0]);
             assert_eq!(plant.linearize(at, input, output).as_ref(), Err(expected), "{name}");

@@ -2,6 +2,7 @@ use super::super::number_text::number_mathml;
 use super::super::{Rational, symbol_mathml};
 use super::text::{Level, number_text};
 use super::{Expression, Function, NodeKind};
+use std::borrow::Cow;
 
 impl Expression {
     /// As a textbook prints it, in MathML without the `<math>` around it.
@@ -33,7 +34,7 @@ fn sum(node: &Expression) -> String {
 }
 
 /// The terms of a sum with their signs, left to right. What parentheses hold together on the right of a minus stays one term.
-fn collect_terms<'a>(node: &'a Expression, negative: bool, terms: &mut Vec<(bool, &'a Expression)>) {
+fn collect_terms<'a>(node: &'a Expression, negative: bool, terms: &mut Vec<(bool, Cow<'a, Expression>)>) {
     match &node.kind {
         NodeKind::Add(a, b) if !negative => {
             collect_terms(a, false, terms);
@@ -41,10 +42,25 @@ fn collect_terms<'a>(node: &'a Expression, negative: bool, terms: &mut Vec<(bool
         }
         NodeKind::Subtract(a, b) if !negative => {
             collect_terms(a, false, terms);
-            terms.push((true, b));
+            terms.push((true, Cow::Borrowed(b)));
         }
-        NodeKind::Negate(a) if !negative && terms.is_empty() => terms.push((true, a)),
-        _ => terms.push((negative, node)),
+        _ if !negative && terms.is_empty() => match without_leading_sign(node) {
+            Some(rest) => terms.push((true, Cow::Owned(rest))),
+            None => terms.push((false, Cow::Borrowed(node))),
+        },
+        _ => terms.push((negative, Cow::Borrowed(node))),
+    }
+}
+
+/// (−a)·b as a·b, for the sign that is then written before it.
+fn without_leading_sign(node: &Expression) -> Option<Expression> {
+    match &node.kind {
+        NodeKind::Negate(a) => Some((**a).clone()),
+        NodeKind::Multiply(a, b) => {
+            let kind = NodeKind::Multiply(Box::new(without_leading_sign(a)?), b.clone());
+            Some(Expression { kind, ..*node })
+        }
+        _ => None,
     }
 }
 
@@ -204,7 +220,6 @@ mod tests {
             ("<mo>\u{2061}</mo>", ""),
             ("<mspace width=\"0.17em\"/>", " "),
             ("<mspace width=\"0.2em\"/>", " "),
-            ("<mover accent=\"true\">", "<mover>"),
         ] {
             text = text.replace(from, to);
         }
@@ -232,6 +247,8 @@ mod tests {
             ("a/(b + c)", "<mfrac>ab+c</mfrac>"),
             ("(a/b)^2", "<msup>(<mfrac>ab</mfrac>)2</msup>"),
             ("-a - b", "−a−b"),
+            ("-m*l*s/d", "<mfrac>−mlsd</mfrac>"),
+            ("a + (-b)*c", "a+(−b)c"),
             ("a - (b - c)", "a−(b−c)"),
             ("a + -b", "a+(−b)"),
             ("2*3", "2·3"),
@@ -242,7 +259,8 @@ mod tests {
             ("k*sqrt(h)", "k <msqrt>h</msqrt>"),
             ("e^-x", "<msup>e−x</msup>"),
             ("2*pi", "2π"),
-            ("1e-9", "1·<msup>10−9</msup>"),
+            ("1e-9", "<msup>10−9</msup>"),
+            ("2.5e-9*x", "2.5·<msup>10−9</msup>x"),
         ]);
     }
 

@@ -94,12 +94,14 @@ fn decimal(value: &Rational) -> Option<String> {
     let (sign, digits) = digits.strip_prefix('-').map_or(("", digits.as_str()), |d| ("-", d));
     let significant = digits.trim_end_matches('0');
     let zeros = digits.len() - significant.len();
-    let text = if places == 0 && zeros > 12 {
-        format!("{significant}e{zeros}")
+    let text = if (places == 0 && zeros > 12) || places > digits.len() + 6 {
+        let exponent = digits.len() as isize - 1 - places as isize;
+        match significant.split_at(1) {
+            (first, "") => format!("{first}e{exponent}"),
+            (first, rest) => format!("{first}.{rest}e{exponent}"),
+        }
     } else if places == 0 {
         digits.to_owned()
-    } else if places > digits.len() + 6 {
-        format!("{digits}e-{places}")
     } else {
         let padded = format!("{digits:0>width$}", width = places + 1);
         let (whole, fraction) = padded.split_at(padded.len() - places);
@@ -138,6 +140,7 @@ mod tests {
             ("--a", "-(-a)"),
             ("0.0132*x''", "0.0132*x''"),
             ("1e-9 + 2e20", "1e-9 + 2e20"),
+            ("12e-10 + 0.00000005*x + 340e20", "1.2e-9 + 5e-8*x + 3.4e22"),
             ("0.001*1500", "0.001*1500"),
             ("sin((x))", "sin(x)"),
         ]);
