@@ -161,6 +161,9 @@ mod tests {
             slowest_time_constant_s: None,
             settling_time_2_percent_s: None,
             settling_time_5_percent_s: None,
+            overshoot_percent: None,
+            rise_time_10_90_s: None,
+            rise_time_0_100_s: None,
         }
     }
 
