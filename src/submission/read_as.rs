@@ -1,6 +1,4 @@
-use super::{
-    Answer, AnswerValue, Decimal, FinalValue, TypedComplex, nonlinearity_name, shape_name, stability_name,
-};
+use super::{Answer, AnswerValue, Decimal, FinalValue, TypedComplex, nonlinearity_name, shape_name};
 
 /// Figures that show a decimal as it was typed.
 const FIGURES: usize = 12;
@@ -27,7 +25,7 @@ impl AnswerValue {
                 if shown.is_empty() { "no poles".to_owned() } else { shown.join(", ") }
             }
             Self::Value(value) => value.read_as(),
-            Self::Stability(stability) => stability_name(*stability).to_owned(),
+            Self::Stability(stability) => stability.words().to_owned(),
             Self::Shape(shape) => shape_name(*shape).to_owned(),
             Self::Nonlinearity(kind) => nonlinearity_name(*kind).to_owned(),
             Self::Prose(text) => text.trim().to_owned(),

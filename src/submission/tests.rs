@@ -58,7 +58,7 @@ answers:
     data: |
       t,y
       0,0
-      1,0.3
+      1,0.33
   valve:
     nonlinearity: dead zone
 ";
@@ -472,4 +472,114 @@ fn exercise(bytes: &[u8]) {
         assert!(text.get(answer.span.start..answer.span.end).is_some_and(|t| !t.is_empty()), "{answer:?}");
         answer.read_as();
     }
+}
+
+/// The codes self_check gives for these answers about one system.
+#[track_caller]
+fn check_itself(answers: &str, expected: &[&str]) {
+    let text = format!("lab: tank\nstudent: {{id: a}}\nanswers:\n  low:\n{}", answers.replace("; ", "\n"));
+    let text: String = text
+        .lines()
+        .enumerate()
+        .map(|(i, l)| if i > 3 { format!("    {l}\n") } else { format!("{l}\n") })
+        .collect();
+    let submission = submit(&text);
+    assert_eq!(submission.findings, [], "{answers}");
+    let findings = self_check(&submission, &sheet());
+    let found: Vec<_> = codes(&findings).into_iter().filter(|code| *code != "answer.missing").collect();
+    assert_eq!(found, expected, "{answers}: {findings:?}");
+    for finding in findings.iter().filter(|f| f.code.starts_with("contradiction")) {
+        assert!(finding.span.is_some() && finding.message.matches("(line ").count() == 2, "{finding:?}");
+        assert!(!finding.message.contains("wrong"), "{finding:?}");
+    }
+}
+
+#[test]
+fn a_file_is_held_against_itself() {
+    const G: &str = "transfer_function: 2 / (s^2 + 2s + 5)";
+    let g = |rest: &str| format!("{G}; {rest}");
+    let response = |rest: &str| format!("response.{rest}");
+    for (answers, expected) in [
+        (g("response.poles: -1 ± 2j"), &[][..]),
+        (g("response.poles: -1.0 ± 2.02j"), &[]),
+        (g("response.poles: -1 ± 2.4j"), &["contradiction.poles_and_transfer_function"]),
+        (g("response.poles: -1.04 ± 2j"), &[]),
+        (g("response.poles: -1.0 ± 3.0j"), &["contradiction.poles_and_transfer_function"]),
+        (g("response.poles: -1"), &["contradiction.poles_and_transfer_function"]),
+        (g("response.poles: -1 + 2j"), &["poles.conjugate_missing"]),
+        (g("response.poles: [-1 ± 2j, 0]"), &["contradiction.poles_and_transfer_function"]),
+        ("transfer_function: s/(s*(s+1)); response.poles: -1".into(), &[]),
+        (
+            "transfer_function: s/(s*(s+1)); response.poles: [-1, 0]".into(),
+            &["contradiction.poles_and_transfer_function"],
+        ),
+        ("transfer_function: 1/(s^2+2.01s+1); response.poles: -1 (x2)".into(), &[]),
+        ("transfer_function: 1/(s+1)^2; response.poles: [-1.05, -0.95]".into(), &[]),
+        (
+            "transfer_function: 1/(s+1)^2; response.poles: -1".into(),
+            &["contradiction.poles_and_transfer_function"],
+        ),
+        (g("response.stability: stable"), &[]),
+        (g("response.stability: unstable"), &["contradiction.stability_and_transfer_function"]),
+        (g("response.stability: marginally stable"), &["contradiction.stability_and_transfer_function"]),
+        (response("poles: [-1, 2]; response.stability: stable"), &["contradiction.stability_and_poles"]),
+        (response("poles: [-1, 0]; response.stability: stable"), &["contradiction.stability_and_poles"]),
+        (response("poles: [-1, 0]; response.stability: marginally stable"), &[]),
+        (
+            response("poles: [0, 0]; response.stability: marginally stable"),
+            &["contradiction.stability_and_poles"],
+        ),
+        (response("stability: stable; response.final_value: 0"), &[]),
+        (response("stability: stable; response.final_value: 1"), &["contradiction.final_value"]),
+        (response("stability: stable; response.final_value: unbounded"), &["contradiction.final_value"]),
+        (response("stability: unstable; response.final_value: unbounded"), &[]),
+        (response("stability: unstable; response.final_value: 0"), &["contradiction.final_value"]),
+        (response("stability: marginally stable; response.final_value: ∞"), &["contradiction.final_value"]),
+        (response("poles: [2]; response.final_value: 0"), &["contradiction.final_value"]),
+        (g("response.final_value: +∞"), &["contradiction.final_value"]),
+        (response("stability: stable; response.shape: decaying oscillation"), &[]),
+        (
+            response("stability: stable; response.shape: exponential growth"),
+            &["contradiction.shape_and_stability"],
+        ),
+        (
+            response("stability: unstable; response.shape: decaying oscillation"),
+            &["contradiction.shape_and_stability"],
+        ),
+        (
+            response("stability: stable; response.shape: sustained oscillation"),
+            &["contradiction.shape_and_stability"],
+        ),
+        (
+            response("poles: [-1, -2]; response.shape: decaying oscillation"),
+            &["contradiction.shape_and_poles"],
+        ),
+        (response("poles: [-1, -2 ± j]; response.shape: exponential decay"), &[]),
+        (g("response.initial_value: 0"), &[]),
+        (g("response.initial_value: 2"), &["contradiction.initial_value"]),
+        (g("response.initial_value: ∞"), &["contradiction.initial_value"]),
+        ("transfer_function: 2/(3s+1); response.initial_value: 0.667".into(), &[]),
+        ("transfer_function: 2/(3s+1); response.initial_value: 0".into(), &["contradiction.initial_value"]),
+        ("transfer_function: 2; response.initial_value: 7".into(), &[]),
+        ("transfer_function: 1/(s+1); response.data: [[0, 1], [1, 0.37], [2, 0.14]]".into(), &[]),
+        ("transfer_function: 1/(s+1); response.data: [[0, 5, 1], [1, 5, 0.37]]".into(), &[]),
+        (
+            "transfer_function: 1/(s+1); response.data: [[0, 0], [1, 0.63], [2, 0.86]]".into(),
+            &["contradiction.data_and_transfer_function"],
+        ),
+        ("transfer_function: s^2; response.data: [[0, 0], [1, 1]]".into(), &[]),
+    ] {
+        check_itself(&answers, expected);
+    }
+}
+
+#[test]
+fn what_is_missing_is_named_with_its_question() {
+    let submission =
+        submit("lab: tank\nstudent: {id: a}\nanswers: {low.response.poles: x, valve.nonlinearity: relay}");
+    let findings = self_check(&submission, &sheet());
+    assert_eq!(findings.len(), 6);
+    assert_eq!(findings[0].message, "`expect` has no answer: Prompt of expect.");
+    assert!(findings.iter().all(|f| f.code == "answer.missing" && !f.message.contains("poles")));
+    assert_eq!(self_check(&submit("a: [b"), &sheet()), []);
 }

@@ -134,11 +134,7 @@ pub fn shape_word(text: &str) -> Option<Shape> {
 
 /// `asymptotically stable`, `marginally stable`, `unstable`.
 pub fn stability_name(stability: Stability) -> &'static str {
-    match stability {
-        Stability::AsymptoticallyStable => "asymptotically stable",
-        Stability::MarginallyStable => "marginally stable",
-        Stability::Unstable => "unstable",
-    }
+    stability.words()
 }
 
 /// `decaying oscillation` …
