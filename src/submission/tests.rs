@@ -567,7 +567,6 @@ fn a_file_is_held_against_itself() {
             "transfer_function: 1/(s+1); response.data: [[0, 0], [1, 0.63], [2, 0.86]]".into(),
             &["contradiction.data_and_transfer_function"],
         ),
-        ("transfer_function: s^2; response.data: [[0, 0], [1, 1]]".into(), &[]),
     ] {
         check_itself(&answers, expected);
     }
