@@ -6,6 +6,11 @@ use crate::algebra::Rational;
 use crate::lab::{Concept, Points};
 use crate::source::Span;
 
+/// More words than these are not shown.
+const MOST_SHOWN: usize = 60;
+/// More quotations than these are not listed in a sentence.
+const MOST_QUOTED: usize = 8;
+
 /// What prose should say, in words.
 pub(super) fn expected(concepts: &[Concept], needed: usize) -> String {
     let titles: Vec<_> = concepts.iter().map(|concept| concept.title.as_str()).collect();
@@ -23,7 +28,8 @@ fn needed_of(concepts: &[Concept], needed: usize) -> usize {
 
 /// Prose by the concepts it states. Always provisional: words are evidence of a thought, not the thought.
 ///
-/// A concept counts when it is claimed and nowhere denied, half when it is both; a contradiction that is claimed takes all.
+/// A concept counts when one of its phrases is claimed, half when the same phrase is also denied elsewhere; a contradiction
+/// that is claimed takes all.
 pub(super) fn judge(
     points: Points,
     concepts: &[Concept],
@@ -36,17 +42,20 @@ pub(super) fn judge(
     if read.is_empty() {
         return Mark::blank(expected);
     }
-    let said: Vec<(&Concept, Vec<PhraseMatch>)> =
+    let said: Vec<(&Concept, Vec<Match>)> =
         concepts.iter().map(|concept| (concept, matches(concept, &read))).collect();
     let against: Vec<PhraseMatch> = contradictions
         .iter()
         .flat_map(|concept| matches(concept, &read))
+        .map(|one| one.found)
         .filter(|found| found.stance == Stance::Claims)
         .map(|found| PhraseMatch { stance: Stance::Denies, ..found })
         .collect();
-    let mut phrases: Vec<PhraseMatch> = said.iter().flat_map(|(_, found)| found.clone()).collect();
+    let mut phrases: Vec<PhraseMatch> =
+        said.iter().flat_map(|(_, found)| found).map(|one| one.found.clone()).collect();
     phrases.extend(against.iter().cloned());
     phrases.sort_by_key(|found| found.span);
+    phrases.truncate(MOST_SHOWN);
     let evidence = |reason: String| Evidence {
         expected: expected.clone(),
         found: found_in_words(&phrases, prose),
@@ -109,39 +118,55 @@ enum State {
 }
 
 impl State {
-    fn of(found: &[PhraseMatch]) -> Self {
-        let has = |stance| found.iter().any(|one| one.stance == stance);
-        match (has(Stance::Claims), has(Stance::Denies)) {
-            (true, true) => Self::Both,
-            (true, false) => Self::Claimed,
-            (false, true) => Self::Denied,
-            (false, false) => Self::Missing,
+    /// Claimed by one phrase and denied by another is claimed: `it leaves the top, but cannot leave the circle`.
+    fn of(found: &[Match]) -> Self {
+        let has = |phrase: usize, stance| {
+            found.iter().any(|one| one.phrase == phrase && one.found.stance == stance)
+        };
+        let claimed = || found.iter().filter(|one| one.found.stance == Stance::Claims);
+        if claimed().any(|one| !has(one.phrase, Stance::Denies)) {
+            Self::Claimed
+        } else if claimed().next().is_some() {
+            Self::Both
+        } else if found.is_empty() {
+            Self::Missing
+        } else {
+            Self::Denied
         }
     }
 }
 
+/// What was found, and which of the concept's phrases found it.
+struct Match {
+    phrase: usize,
+    found: PhraseMatch,
+}
+
 /// Every place where a phrase of `concept` is said, the longer phrase where one stands within another, in text order.
-fn matches(concept: &Concept, sentences: &[Vec<Token>]) -> Vec<PhraseMatch> {
-    let mut found: Vec<PhraseMatch> = Vec::new();
-    for phrase in concept.phrases.iter().map(|phrase| Phrase::new(phrase)) {
-        for said in sentences.iter().flat_map(|sentence| phrase.said_in(sentence)) {
+fn matches(concept: &Concept, sentences: &[Vec<Token>]) -> Vec<Match> {
+    let mut all = Vec::new();
+    for (phrase, text) in concept.phrases.iter().enumerate() {
+        let words = Phrase::new(text);
+        for said in sentences.iter().flat_map(|sentence| words.said_in(sentence)) {
             let stance = if said.denied { Stance::Denies } else { Stance::Claims };
-            found.push(PhraseMatch { span: said.span, concept: concept.title.clone(), stance });
+            all.push(Match {
+                phrase,
+                found: PhraseMatch { span: said.span, concept: concept.title.clone(), stance },
+            });
         }
     }
-    let length = |span: Span| span.end - span.start;
-    // Longest first; of equal ones the claim, since the phrase that claims holds the `not` in itself.
-    found.sort_by_key(|one| (usize::MAX - length(one.span), one.span, one.stance == Stance::Denies));
-    let mut kept: Vec<PhraseMatch> = Vec::new();
-    for one in found {
-        let covered =
-            kept.iter().any(|long| long.span.start <= one.span.start && one.span.end <= long.span.end);
-        if !covered {
-            kept.push(one);
-        }
-    }
-    kept.sort_by_key(|one| one.span);
-    kept
+    // Of phrases on the same words the one that claims: it holds the `not` in itself.
+    all.sort_by_key(|one| {
+        let span = one.found.span;
+        (span.start, usize::MAX - span.end, one.found.stance == Stance::Denies)
+    });
+    let mut reached = 0;
+    all.retain(|one| {
+        let covered = one.found.span.end <= reached;
+        reached = reached.max(one.found.span.end);
+        !covered
+    });
+    all
 }
 
 fn found_in_words(phrases: &[PhraseMatch], prose: &str) -> String {
@@ -154,6 +179,10 @@ fn quotations(phrases: &[PhraseMatch], prose: &str) -> String {
     for found in phrases {
         let words = prose.get(found.span.start..found.span.end).unwrap_or_default();
         let one = format!("“{}”", words.split_whitespace().collect::<Vec<_>>().join(" "));
+        if quoted.len() == MOST_QUOTED {
+            quoted.push("…".to_owned());
+            break;
+        }
         if !quoted.contains(&one) {
             quoted.push(one);
         }
@@ -207,6 +236,12 @@ mod tests {
                 ("It falls.", 0, Wrong, "concepts.missing"),
                 ("It does not oscillate.", 0, Wrong, "concepts.denied"),
                 ("It oscillates. It does not oscillate. It settles.", 75, Partly, "concepts.both_ways"),
+                (
+                    "It oscillates; its oscillations are not seen. It swings, settles.",
+                    100,
+                    Right,
+                    "concepts.found",
+                ),
                 ("It oscillates but will rotate indefinitely.", 0, Wrong, "concepts.contradicted"),
                 (
                     "It oscillates and comes to rest; it does not rotate forever.",
@@ -228,6 +263,14 @@ mod tests {
         let mark = judge(Points(100), &differs, 1, &[], "It does not match.");
         assert_eq!((mark.earned, mark.code), (Points(100), "concepts.found"));
         assert_eq!(mark.evidence.found, "“does not match”");
+    }
+
+    #[test]
+    fn a_wall_of_words_is_read_in_good_time() {
+        let wall = "it does not oscillate and settles ".repeat(5_000);
+        let mark = judge(Points(100), &pendulum(), 2, &[], &wall);
+        assert_eq!(mark.code, "concepts.missing");
+        assert_eq!(mark.evidence.phrases.len(), MOST_SHOWN);
     }
 
     #[test]

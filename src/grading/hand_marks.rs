@@ -306,3 +306,115 @@ fn nearest<'k>(name: &str, known: &'k [impl AsRef<str>]) -> Option<&'k str> {
         .min()
         .map(|(_, one)| one)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grading::Evidence;
+    use crate::lab;
+
+    fn parse(text: &str) -> (HandMarksFile, Vec<String>) {
+        let lab = lab::load(lab::DEFAULT).unwrap();
+        let source = SourceText::new("marks.yaml", text);
+        let (file, findings) = HandMarks::parse(&source, &lab);
+        let shown = findings
+            .iter()
+            .map(|finding| {
+                let at = finding.span.map_or_else(String::new, |span| {
+                    let position = source.position(span.start);
+                    format!("{}:{} ", position.line, position.column)
+                });
+                let help = finding.help.as_deref().unwrap_or_default();
+                format!("{at}{} {} {help}", finding.code, finding.message)
+            })
+            .collect();
+        (file, shown)
+    }
+
+    #[test]
+    fn everything_a_person_gives() {
+        let (file, findings) = parse(
+            "lab: ee361-lab3\nstudents:\n  EE-001:\n    viva: 30\n    observed: {realization: 4, teamwork: 4.5}\n    items:\n      \
+             hanging.transfer_function.denominator: {points: 1.5, reason: \"slip in the last step\"}\n  EE-002:\n",
+        );
+        assert!(findings.is_empty(), "{findings:?}");
+        assert_eq!(file.student_ids().collect::<Vec<_>>(), ["EE-001", "EE-002"]);
+        let marks = file.student("EE-001").unwrap();
+        assert_eq!(marks.cover["viva"], Points(3000));
+        assert_eq!((marks.observed["realization"], marks.observed["teamwork"]), (Points(400), Points(450)));
+        let item = &marks.items["hanging.transfer_function.denominator"];
+        assert_eq!((item.points, item.reason.as_str()), (Points(150), "slip in the last step"));
+        assert_eq!(file.student("EE-002"), Some(&HandMarks::default()));
+        assert_eq!(file.student("EE-003"), None);
+    }
+
+    #[track_caller]
+    fn check(rows: &[(&str, &str)]) {
+        for (text, want) in rows {
+            let (_, findings) = parse(text);
+            assert_eq!(findings.len(), 1, "{text:?}: {findings:#?}");
+            assert!(findings[0].starts_with(want), "{text:?}: {}", findings[0]);
+        }
+    }
+
+    #[test]
+    fn what_does_not_fit_is_said_and_where() {
+        check(&[
+            ("lab: ee361-lab4", "1:6 marks.lab These marks are for `ee361-lab4`, not for `ee361-lab3`."),
+            ("student: {}", "1:1 marks.unknown There is no key `student`. Did you mean `students`?"),
+            ("students: [1]", "1:11 marks.shape "),
+            ("students: {A: {vivva: 3}}", "1:16 marks.unknown There is no key `vivva`. Did you mean `viva`?"),
+            (
+                "students: {A: {observed: {team_work: 3}}}",
+                "1:27 marks.unknown There is no row of the observation sheet `team_work`. Did you mean `teamwork`?",
+            ),
+            (
+                "students: {A: {items: {battery.nonlinearity.clas: {points: 1, reason: x}}}}",
+                "1:24 marks.unknown There is no criterion `battery.nonlinearity.clas`. Did you mean \
+                 `battery.nonlinearity.class`?",
+            ),
+            (
+                "students: {A: {viva: 36}}",
+                "1:22 marks.points_out_of_range 36 points for `viva` are not between 0 and 35.",
+            ),
+            ("students: {A: {viva: -1}}", "1:22 marks.points_out_of_range "),
+            ("students: {A: {viva: many}}", "1:22 marks.points_unreadable `many`"),
+            ("students: {A: {viva: 1.005}}", "1:22 marks.points_unreadable "),
+            ("students: {A: {viva: 1e300}}", "1:22 marks.points_unreadable "),
+            ("students: {A: {viva: [1]}}", "1:22 marks.points_unreadable "),
+            (
+                "students: {A: {items: {battery.nonlinearity.class: {points: 1}}}}",
+                "1:24 marks.reason_missing ",
+            ),
+            (
+                "students: {A: {items: {battery.nonlinearity.class: {points: 1, reason: '  '}}}}",
+                "1:24 marks.reason_missing ",
+            ),
+            (
+                "students: {A: {items: {battery.nonlinearity.class: {reason: x}}}}",
+                "1:24 marks.points_missing ",
+            ),
+            ("students: {A: {items: {battery.nonlinearity.class: 1}}}", "1:52 marks.shape "),
+            ("students: {A: {viva: 1}", "1:"),
+        ]);
+    }
+
+    #[test]
+    fn a_bad_mark_does_not_take_the_others_with_it() {
+        let (file, findings) = parse("students: {A: {viva: 99, observed: {safety: 3, teamwork: 6}}}");
+        assert_eq!(findings.len(), 2);
+        let marks = file.student("A").unwrap();
+        assert_eq!((marks.cover.len(), marks.observed.len(), marks.observed["safety"]), (0, 1, Points(300)));
+    }
+
+    #[test]
+    fn a_person_has_the_last_word() {
+        for (given, verdict) in [(0, Verdict::Wrong), (50, Verdict::Partly), (100, Verdict::Right)] {
+            let mark = Mark { provisional: true, ..Mark::wrong("concepts.missing", Evidence::default()) };
+            let given = Override { points: Points(given), reason: "seen".into() };
+            let mark = given.apply(Points(100), mark);
+            assert_eq!((mark.verdict, mark.code, mark.provisional), (verdict, "by_hand", false));
+            assert_eq!(mark.earned, given.points);
+        }
+    }
+}

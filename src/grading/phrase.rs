@@ -119,7 +119,10 @@ enum Stance {
 }
 
 /// How far before a phrase a denial reaches, in words between.
-const FAR: usize = 6;
+const FAR: usize = 3;
+
+/// Words looked at before a phrase; no denial reaches as far, remarks between commas included.
+const LONGEST_LOOK: usize = 24;
 
 /// Words that deny what follows them within so many words.
 const DENIALS: &[(&str, usize)] = &[
@@ -146,7 +149,6 @@ const DENIALS: &[(&str, usize)] = &[
     ("lack", 2),
     ("lacks", 2),
     ("absence", 2),
-    ("impossible", 3),
 ];
 /// Pairs that deny what follows.
 const DENIAL_PAIRS: &[(&str, &str, usize)] = &[
@@ -155,6 +157,7 @@ const DENIAL_PAIRS: &[(&str, &str, usize)] = &[
     ("far", "from", 2),
     ("free", "of", 2),
     ("free", "from", 2),
+    ("impossible", "to", 2),
 ];
 /// After these, `not` and `no` deny nothing: `not only`, `no doubt`.
 const NO_DENIAL_BEFORE: &[&str] =
@@ -199,14 +202,15 @@ const CLAUSE_WORDS: &[&str] = &[
     "which",
     "that",
     "who",
-    "as",
     "then",
-    "so",
     "therefore",
     "thus",
     "hence",
     "instead",
 ];
+/// Before `that`, these take its clause with them: `it is not true that it settles`.
+const TAKE_THAT: &[&str] =
+    &["true", "case", "likely", "mean", "means", "expect", "think", "believe", "see", "say"];
 /// After `and`, these begin a clause with a subject or a verb of its own.
 const FRESH_STARTS: &[&str] = &[
     "they",
@@ -236,6 +240,25 @@ const FRESH_STARTS: &[&str] = &[
 const AUXILIARIES: &[&str] = &[
     "is", "are", "was", "were", "be", "do", "does", "did", "will", "would", "can", "could", "has", "have",
     "had", "may", "should", "must",
+];
+/// What is denied of a thing when it is said not to be there. `The swing does not last` says that there is one.
+const BEING_THERE: &[&str] = &[
+    "occur",
+    "happen",
+    "exist",
+    "appear",
+    "arise",
+    "seen",
+    "observed",
+    "visible",
+    "present",
+    "there",
+    "possible",
+    "found",
+    "be",
+    "true",
+    "noticeable",
+    "take",
 ];
 
 fn stance(sentence: &[Token], places: &[usize]) -> Stance {
@@ -275,6 +298,8 @@ fn excused(sentence: &[Token], place: usize) -> bool {
 /// How many denials in the clause before `first` reach it.
 fn denials_before(sentence: &[Token], first: usize) -> usize {
     let start = clause_start(sentence, first);
+    // `neither … nor` and `not … nor` deny once.
+    let start = (start..first).rev().find(|&place| sentence[place].text == "nor").unwrap_or(start);
     (start..first)
         .filter(|&place| {
             let between = first - place - 1;
@@ -291,8 +316,9 @@ fn denials_before(sentence: &[Token], first: usize) -> usize {
 
 /// Where the clause that contains `place` begins.
 fn clause_start(sentence: &[Token], place: usize) -> usize {
+    let earliest = place.saturating_sub(LONGEST_LOOK);
     let mut start = place;
-    while start > 0 {
+    while start > earliest {
         let token = &sentence[start];
         match token.gap {
             Gap::Break | Gap::Sentence => return start,
@@ -306,15 +332,30 @@ fn clause_start(sentence: &[Token], place: usize) -> usize {
             },
             Gap::Space => {}
         }
-        if CLAUSE_WORDS.contains(&token.text.as_str()) && !forms_pair(sentence, start) {
-            return start;
-        }
-        if token.text == "and" && start < place && begins_afresh(&sentence[start + 1].text) {
+        if begins_clause(sentence, start, place) {
             return start;
         }
         start -= 1;
     }
-    0
+    start
+}
+
+fn begins_clause(sentence: &[Token], at: usize, place: usize) -> bool {
+    let word = |at: usize| sentence.get(at).map_or("", |token| token.text.as_str());
+    let before = at.checked_sub(1).map_or("", word);
+    match word(at) {
+        "that" => !TAKE_THAT.contains(&before),
+        // `so it settles`, but not `it will not do so`
+        "so" => matches!(word(at + 1), "it" | "the" | "they" | "we" | "that"),
+        // `as it settles`, but not `as fast as`
+        "as" => matches!(word(at + 1), "it" | "the" | "they" | "we" | "there"),
+        "and" => at < place && begins_afresh(word(at + 1)),
+        // `not driven it settles`, but not `does not let it settle`
+        "it" | "they" | "we" if before != "that" => {
+            at < place && (word(at + 1).ends_with('s') || AUXILIARIES.contains(&word(at + 1)))
+        }
+        one => CLAUSE_WORDS.contains(&one) && !forms_pair(sentence, at),
+    }
 }
 
 /// `instead of` and `rather than` deny, they do not begin a clause.
@@ -342,15 +383,19 @@ fn denied_after(sentence: &[Token], last: usize) -> bool {
     let word = |place: usize| {
         sentence.get(place).filter(|token| token.gap == Gap::Space).map_or("", |token| token.text.as_str())
     };
-    let denial = |place: usize| {
-        (matches!(word(place), "not" | "never" | "absent" | "impossible") && !excused(sentence, place))
-            || (word(place) == "no" && word(place + 1) == "longer")
-    };
-    if AUXILIARIES.contains(&word(last + 1)) {
-        // `is not … ` but not `is not only …`; a double denial is rare enough to be left to the person who confirms.
-        return denial(last + 2);
+    if !AUXILIARIES.contains(&word(last + 1)) {
+        return word(last + 1) == "never" && being_there(word(last + 2));
     }
-    word(last + 1) == "never"
+    match word(last + 2) {
+        "not" | "never" => being_there(word(last + 3)),
+        "no" => word(last + 3) == "longer" && being_there(word(last + 4)),
+        "absent" | "impossible" => true,
+        _ => false,
+    }
+}
+
+fn being_there(verb: &str) -> bool {
+    BEING_THERE.iter().any(|one| verb.trim_end_matches(['s']) == one.trim_end_matches('s') || verb == *one)
 }
 
 #[cfg(test)]
@@ -421,10 +466,12 @@ mod tests {
                 ("It fails to settle.", "-settle"),
                 ("It will oscillate without settling.", "-settling"),
                 ("The motor without the gear quickly settles.", "+settles"),
-                ("It neither grows nor settles.", "+settles"),
+                ("It neither grows nor settles.", "-settles"),
+                ("It does not grow, nor does it settle.", "-settle"),
+                ("It neither settles nor grows.", "-settles"),
                 ("It keeps going rather than settling.", "-settling"),
                 ("It goes on instead of settling.", "-settling"),
-                ("It is not true that it settles.", "+settles"),
+                ("It is not true that it settles.", "-settles"),
                 // double denial
                 ("It cannot fail to settle.", "+settle"),
                 ("It never fails to settle.", "+settle"),
@@ -434,8 +481,13 @@ mod tests {
                 ("It does not run away; it settles.", "+settles"),
                 ("It does not turn over and it settles.", "+settles"),
                 ("It does not turn over and comes back, settles.", "+settles"),
-                ("Because it is not driven it settles.", "-settles"),
+                ("Because it is not driven it settles.", "+settles"),
+                ("There is nothing that would make it settle.", "+settle"),
+                ("It never catches up with the one that settles.", "+settles"),
+                ("It will not do so, it settles.", "+settles"),
                 // the denial goes on
+                ("Friction does not let it settle.", "-settle"),
+                ("It will not do so and settle.", "-settle"),
                 ("It does not swing and settle.", "-settle"),
                 ("It does not, in general, settle.", "-settle"),
                 // no denial at all
@@ -453,7 +505,11 @@ mod tests {
                 ("Oscillations do not occur.", "-Oscillations"),
                 ("There is no oscillation.", "-oscillation"),
                 ("There are no visible oscillations.", "-oscillations"),
+                ("Oscillations never occur.", "-Oscillations"),
+                ("Oscillation is absent.", "-Oscillation"),
                 ("Oscillation is clear.", "+Oscillation"),
+                // that it does not last says that there is one
+                ("The oscillation does not last.", "+oscillation"),
                 ("The oscillation is not only clear but large.", "+oscillation"),
             ],
         );
@@ -462,6 +518,11 @@ mod tests {
             &[("It comes to rest.", "+comes to rest"), ("It comes never to rest.", "-comes never to rest")],
         );
         check("oscillate", &[("It does not oscillate for ever.", "")]);
+        check(
+            "for ever",
+            &[("It won't do so for ever.", "-for ever"), ("It goes on for ever.", "+for ever")],
+        );
+        check("stable", &[("It is not as stable as the other.", "-stable")]);
     }
 
     #[test]
