@@ -146,25 +146,16 @@ fn compare_numbers(want: f64, tolerance: &Tolerance, have: &Decimal, with: &str)
 mod tests {
     use super::super::closeness::tests::{tolerance, typed};
     use super::*;
-    use crate::lti::{Extremum, Shape};
+    use crate::algebra::Polynomial;
+    use crate::lti::{Extremum, InputKind, Response, TransferFunction};
 
+    /// A response with the features given, the others those of e^(-t).
     fn features(initial_value: f64, final_value: Limit) -> Features {
-        Features {
-            initial_value,
-            final_value,
-            shape: Shape::DecayingOscillation,
-            peak: Some(Extremum { time_s: 1.0, value: -0.73 }),
-            extrema: Vec::new(),
-            period_s: Some(1.1246),
-            damping_ratio: None,
-            natural_frequency_rad_s: None,
-            slowest_time_constant_s: None,
-            settling_time_2_percent_s: None,
-            settling_time_5_percent_s: None,
-            overshoot_percent: None,
-            rise_time_10_90_s: None,
-            rise_time_0_100_s: None,
-        }
+        let first_order =
+            TransferFunction::new(Polynomial::one(), Polynomial::from_integers(&[1, 1])).unwrap();
+        let decay = Features::of(&Response::new(&first_order, InputKind::Impulse).unwrap());
+        let peak = Some(Extremum { time_s: 1.0, value: -0.73 });
+        Features { initial_value, final_value, peak, period_s: Some(1.1246), ..decay }
     }
 
     #[track_caller]
