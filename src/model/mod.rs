@@ -8,7 +8,7 @@ mod linearization;
 mod motion;
 mod program;
 
-pub use compare::{Comparison, ComparisonRun, compare};
+pub use compare::{Comparison, ComparisonRun, ComparisonSample, compare};
 pub use equations::{Coordinate, Equation, Model, ModelError};
 pub use equilibrium::Equilibrium;
 pub use exact::Exact;

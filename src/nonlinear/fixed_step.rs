@@ -26,8 +26,8 @@ pub fn simulate_fixed_step(
             Block::Nonlinearity(nonlinearity) => Stage::Nonlinearity(*nonlinearity, 0.0),
             Block::Linear { num, den } => {
                 let realization = Realization::new(index, num, den)?;
-                let rest = DVector::zeros(realization.order());
-                Stage::Linear { realization, state: rest, input: 0.0, step: None }
+                let state = DVector::zeros(realization.order());
+                Stage::Linear(Box::new(Discretized { realization, state, input: 0.0, step: None }))
             }
         });
     }
@@ -65,13 +65,22 @@ const STEPS_LIMIT: usize = 1_000_000;
 enum Stage {
     /// With its last output.
     Nonlinearity(Nonlinearity, f64),
-    Linear {
-        realization: Realization,
-        state: DVector<f64>,
-        input: f64,
-        /// Step length, and the matrices that take (state, mean input) across it.
-        step: Option<(f64, DMatrix<f64>, DVector<f64>)>,
-    },
+    Linear(Box<Discretized>),
+}
+
+struct Discretized {
+    realization: Realization,
+    state: DVector<f64>,
+    /// The last one.
+    input: f64,
+    step: Option<Step>,
+}
+
+/// What takes a state, and the mean input, across a step.
+struct Step {
+    length: f64,
+    from_state: DMatrix<f64>,
+    from_input: DVector<f64>,
 }
 
 /// Sends one more sample of the source down the chain, `h` seconds after the last; 0 for a jump.
@@ -83,29 +92,41 @@ fn pass(stages: &mut [Stage], source: f64, h: f64, t: f64) -> Result<f64, ChainE
                 signal = nonlinearity.output(signal, *previous);
                 *previous = signal;
             }
-            Stage::Linear { realization, state, input, step } => {
-                if h > 0.0 && realization.order() > 0 {
-                    let (_, from_state, from_input) = match step {
-                        Some(ready) if ready.0 == h => ready,
-                        _ => {
-                            step.insert(trapezoid(realization, h).ok_or(ChainError::NotFinite { time_s: t })?)
-                        }
-                    };
-                    *state = &*from_state * &*state + &*from_input * ((signal + *input) / 2.0);
-                }
-                *input = signal;
-                signal = realization.c.transpose().dot(state) + realization.d * signal;
+            Stage::Linear(linear) => {
+                signal = linear.pass(signal, h).ok_or(ChainError::NotFinite { time_s: t })?
             }
         }
     }
     if signal.is_finite() { Ok(signal) } else { Err(ChainError::NotFinite { time_s: t }) }
 }
 
-/// (1 − a·h/2)⁻¹·(1 + a·h/2) and (1 − a·h/2)⁻¹·b·h; `None` when a pole sits at 2/h.
-fn trapezoid(realization: &Realization, h: f64) -> Option<(f64, DMatrix<f64>, DVector<f64>)> {
-    let order = realization.order();
-    let identity = DMatrix::<f64>::identity(order, order);
-    let half = &realization.a * (h / 2.0);
-    let implicit = (&identity - &half).lu();
-    Some((h, implicit.solve(&(identity + half))?, implicit.solve(&(&realization.b * h))?))
+impl Discretized {
+    /// The output `h` seconds after the last; `None` when a pole sits at 2/h.
+    fn pass(&mut self, input: f64, h: f64) -> Option<f64> {
+        if h > 0.0 && self.realization.order() > 0 {
+            let step = match self.step.take() {
+                Some(step) if step.length == h => step,
+                _ => Step::trapezoidal(&self.realization, h)?,
+            };
+            self.state = &step.from_state * &self.state + &step.from_input * ((self.input + input) / 2.0);
+            self.step = Some(step);
+        }
+        self.input = input;
+        Some((&self.realization.c * &self.state).sum() + self.realization.d * input)
+    }
+}
+
+impl Step {
+    /// (1 − a·h/2)⁻¹·(1 + a·h/2) and (1 − a·h/2)⁻¹·b·h.
+    fn trapezoidal(realization: &Realization, h: f64) -> Option<Self> {
+        let order = realization.order();
+        let identity = DMatrix::<f64>::identity(order, order);
+        let half = &realization.a * (h / 2.0);
+        let implicit = (&identity - &half).lu();
+        Some(Self {
+            length: h,
+            from_state: implicit.solve(&(identity + half))?,
+            from_input: implicit.solve(&(&realization.b * h))?,
+        })
+    }
 }

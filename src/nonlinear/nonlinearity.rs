@@ -108,8 +108,11 @@ impl Nonlinearity {
 mod tests {
     use super::Nonlinearity::{self, *};
 
+    /// What it is, and the outputs met on the way along some inputs.
+    type Row<'a> = (&'a str, Nonlinearity, &'a [(f64, f64)]);
+
     #[track_caller]
-    fn check(rows: &[(&str, Nonlinearity, &[(f64, f64)])]) {
+    fn check(rows: &[Row]) {
         for (name, nonlinearity, path) in rows {
             let mut output = 0.0;
             for &(input, expected) in *path {

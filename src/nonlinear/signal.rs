@@ -116,8 +116,11 @@ mod tests {
     const PULSES: Signal = Pulse { low: -5.0, high: 5.0, period_s: 3.0, duty: 0.5, delay_s: 0.0 };
     const DELAYED: Signal = Pulse { low: 0.0, high: 5.0, period_s: 0.1, duty: 0.3, delay_s: 0.7 };
 
+    /// What it is, and its values at some times.
+    type Row<'a> = (&'a str, Signal, &'a [(f64, f64)]);
+
     #[track_caller]
-    fn check(rows: &[(&str, Signal, &[(f64, f64)])]) {
+    fn check(rows: &[Row]) {
         for (name, signal, values) in rows {
             for &(t, expected) in *values {
                 assert!((signal.at(t) - expected).abs() < 1e-15, "{name} at {t}: {}", signal.at(t));
