@@ -1,5 +1,15 @@
-//! What a right answer is, curves included: computed from a [`LabDefinition`] once.
+//! What a right answer is, curves included: computed from a lab once.
 
+mod compute;
+mod expectation;
+mod json;
+mod second_route;
+mod text;
 mod types;
 
+pub use compute::ReferenceError;
+pub use expectation::{Disagreement, check_expectations, values_at};
+pub use json::to_json;
+pub use second_route::{Agreement, second_route};
+pub use text::to_text;
 pub use types::*;

@@ -1,0 +1,194 @@
+use super::*;
+use crate::algebra::Rational;
+use crate::lab::{LabDefinition, ModelDefinition, OperatingPointDefinition, SimulationDefinition};
+use crate::lti::{
+    Features, InputKind, Response, ResponseError, RootError, TransferFunction, roots, stability,
+};
+use crate::model::{ModelError, compare, linearize};
+use crate::nonlinear::{ChainError, Run, simulate, without_nonlinearities};
+use std::collections::BTreeMap;
+
+/// How far, as a part of the peak, a drawn polyline may stray from the true curve.
+const DRAWING_TOLERANCE: f64 = 1e-3;
+
+/// Why no reference could be computed: always the lab's fault, and always at a named place of it.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ReferenceError {
+    #[error("model `{model}` at `{operating_point}`: {error}")]
+    Model { model: String, operating_point: String, error: ModelError },
+    #[error("model `{model}` at `{operating_point}`: {error}")]
+    Response { model: String, operating_point: String, error: ResponseError },
+    #[error("model `{model}` at `{operating_point}`: {error}")]
+    Roots { model: String, operating_point: String, error: RootError },
+    #[error("simulation `{simulation}`: {error}")]
+    Simulation { simulation: String, error: ChainError },
+}
+
+/// One choice of a value for every parameter.
+struct ParameterChoice {
+    values: BTreeMap<String, Rational>,
+    /// (name, text as typed, value) of those that are not the lab's own.
+    differs: Vec<(String, String, Rational)>,
+}
+
+impl Reference {
+    /// Computes every right answer of `lab`.
+    ///
+    /// Errors: an operating point that is not an equilibrium, an improper transfer function, a simulation that leaves
+    /// the range of numbers.
+    pub fn compute(lab: &LabDefinition) -> Result<Self, ReferenceError> {
+        let choices = parameter_choices(lab);
+        let models =
+            lab.models.iter().map(|model| model_reference(model, &choices)).collect::<Result<_, _>>()?;
+        let simulations = lab.simulations.iter().map(simulation_reference).collect::<Result<_, _>>()?;
+        Ok(Self { lab: lab.id.clone(), models, simulations })
+    }
+
+    /// The operating point `of` names, if there is one.
+    pub fn operating_point(&self, of: &crate::lab::SystemRef) -> Option<&OperatingPointReference> {
+        let model = self.models.iter().find(|m| m.id == of.model)?;
+        model.operating_points.iter().find(|p| p.id == of.operating_point)
+    }
+
+    pub fn simulation(&self, id: &str) -> Option<&SimulationReference> {
+        self.simulations.iter().find(|s| s.id == id)
+    }
+}
+
+/// The lab's own parameter values first, then every combination with accepted alternatives.
+fn parameter_choices(lab: &LabDefinition) -> Vec<ParameterChoice> {
+    let own = lab.parameters.iter().map(|p| (p.name.clone(), p.value.clone())).collect();
+    let mut choices = vec![ParameterChoice { values: own, differs: Vec::new() }];
+    for parameter in &lab.parameters {
+        let so_far = choices.len();
+        for (text, value) in &parameter.accepted {
+            for index in 0..so_far {
+                let mut values = choices[index].values.clone();
+                values.insert(parameter.name.clone(), value.clone());
+                let mut differs = choices[index].differs.clone();
+                differs.push((parameter.name.clone(), text.clone(), value.clone()));
+                choices.push(ParameterChoice { values, differs });
+            }
+        }
+    }
+    choices
+}
+
+fn model_reference(
+    definition: &ModelDefinition,
+    choices: &[ParameterChoice],
+) -> Result<ModelReference, ReferenceError> {
+    let operating_points = definition
+        .operating_points
+        .iter()
+        .map(|point| operating_point_reference(definition, point, choices))
+        .collect::<Result<_, _>>()?;
+    Ok(ModelReference { id: definition.id.clone(), title: definition.title.clone(), operating_points })
+}
+
+fn operating_point_reference(
+    definition: &ModelDefinition,
+    point: &OperatingPointDefinition,
+    choices: &[ParameterChoice],
+) -> Result<OperatingPointReference, ReferenceError> {
+    let accepted = choices
+        .iter()
+        .map(|choice| linear_reference(definition, point, choice))
+        .collect::<Result<Vec<_>, _>>()?;
+    let comparison = compare(
+        &definition.model,
+        &choices[0].values,
+        &point.at,
+        &point.input,
+        &point.output,
+        &point.comparison,
+    )
+    .map_err(|error| model_error(definition, point, error))?;
+    Ok(OperatingPointReference {
+        id: point.id.clone(),
+        title: point.title.clone(),
+        equilibrium: point.at.values.iter().map(|(name, value)| (name.clone(), value.to_f64())).collect(),
+        equilibrium_text: point.at_text.clone(),
+        input: point.input.clone(),
+        input_unit: point.input_unit.clone(),
+        output: point.output.clone(),
+        output_unit: point.output_unit.clone(),
+        accepted,
+        comparison,
+    })
+}
+
+fn linear_reference(
+    definition: &ModelDefinition,
+    point: &OperatingPointDefinition,
+    choice: &ParameterChoice,
+) -> Result<LinearReference, ReferenceError> {
+    let linearization = linearize(&definition.model, &choice.values, &point.at, &point.input, &point.output)
+        .map_err(|error| model_error(definition, point, error))?;
+    let root_error = |error| ReferenceError::Roots {
+        model: definition.id.clone(),
+        operating_point: point.id.clone(),
+        error,
+    };
+    let response_error = |error| ReferenceError::Response {
+        model: definition.id.clone(),
+        operating_point: point.id.clone(),
+        error,
+    };
+    let g = &linearization.transfer_function;
+    let characteristic = linearization.state_space.characteristic_polynomial();
+    Ok(LinearReference {
+        differs: choice.differs.clone(),
+        poles: roots(&g.den).map_err(root_error)?,
+        zeros: if g.num.is_zero() { Vec::new() } else { roots(&g.num).map_err(root_error)? },
+        stability: stability(&g.den),
+        internal_poles: roots(&characteristic).map_err(root_error)?,
+        internal_stability: stability(&characteristic),
+        impulse: response_reference(g, InputKind::Impulse).map_err(response_error)?,
+        step: response_reference(g, InputKind::Step).map_err(response_error)?,
+        linearization,
+    })
+}
+
+fn response_reference(g: &TransferFunction, kind: InputKind) -> Result<ResponseReference, ResponseError> {
+    let response = Response::new(g, kind)?;
+    let horizon_s = response.horizon_s();
+    Ok(ResponseReference {
+        features: Features::of(&response),
+        horizon_s,
+        samples: response.samples(horizon_s, DRAWING_TOLERANCE),
+        response,
+    })
+}
+
+fn simulation_reference(definition: &SimulationDefinition) -> Result<SimulationReference, ReferenceError> {
+    let run = |chain: &crate::nonlinear::Chain| {
+        simulate(chain, definition.duration_s)
+            .map_err(|error| ReferenceError::Simulation { simulation: definition.id.clone(), error })
+    };
+    let with = run(&definition.chain)?;
+    let without = run(&without_nonlinearities(&definition.chain))?;
+    Ok(SimulationReference {
+        id: definition.id.clone(),
+        title: definition.title.clone(),
+        samples: common_samples(&without, &with),
+        with,
+        without,
+    })
+}
+
+/// Both outputs at the instants of either.
+fn common_samples(without: &Run, with: &Run) -> Vec<(f64, f64, f64)> {
+    let mut times: Vec<f64> = without.samples.iter().chain(&with.samples).map(|(t, _)| *t).collect();
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    times.into_iter().map(|t| (t, without.at(t), with.at(t))).collect()
+}
+
+fn model_error(
+    definition: &ModelDefinition,
+    point: &OperatingPointDefinition,
+    error: ModelError,
+) -> ReferenceError {
+    ReferenceError::Model { model: definition.id.clone(), operating_point: point.id.clone(), error }
+}

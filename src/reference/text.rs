@@ -1,0 +1,139 @@
+use super::*;
+use crate::algebra::significant;
+use crate::lti::{Limit, Pole};
+use std::fmt::Write;
+
+/// Figures shown of every number.
+const FIGURES: usize = 6;
+
+/// The answer key as plain text for a terminal.
+pub fn to_text(reference: &Reference) -> String {
+    let mut text = format!("Answer key of {}\n", reference.lab);
+    for model in &reference.models {
+        for point in &model.operating_points {
+            operating_point(&mut text, &model.id, point);
+        }
+    }
+    for simulation in &reference.simulations {
+        let times: Vec<String> =
+            simulation.with.switch_times.iter().map(|t| significant(*t, FIGURES)).collect();
+        line(&mut text, format_args!(""));
+        line(&mut text, format_args!("{} ({})", simulation.id, simulation.title));
+        for (what, run) in [("without", &simulation.without), ("with", &simulation.with)] {
+            line(
+                &mut text,
+                format_args!(
+                    "  peak {what} the nonlinearity: {} at {} s",
+                    significant(run.peak.1, FIGURES),
+                    significant(run.peak.0, FIGURES)
+                ),
+            );
+        }
+        line(&mut text, format_args!("  switches at: {} s", times.join(", ")));
+    }
+    text
+}
+
+fn operating_point(text: &mut String, model: &str, point: &OperatingPointReference) {
+    let at: Vec<String> =
+        point.equilibrium_text.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+    line(text, format_args!(""));
+    line(text, format_args!("{model}.{} ({}): {}", point.id, point.title, at.join(", ")));
+    for linear in &point.accepted {
+        let choice: Vec<String> =
+            linear.differs.iter().map(|(name, value, _)| format!("{name} = {value}")).collect();
+        let label = if choice.is_empty() {
+            String::new()
+        } else {
+            format!(" (also accepted, {})", choice.join(", "))
+        };
+        line(
+            text,
+            format_args!(
+                "  {}/{} = {}{label}",
+                point.output,
+                point.input,
+                linear.linearization.transfer_function.to_text(FIGURES)
+            ),
+        );
+    }
+    let main = point.main();
+    let cancelled = &main.linearization.cancelled;
+    if cancelled.degree() > 0 {
+        let factor = crate::algebra::polynomial_text(cancelled, "s", FIGURES);
+        line(
+            text,
+            format_args!("  cancelled: {factor}, from {}", main.linearization.uncancelled.to_text(FIGURES)),
+        );
+    }
+    line(text, format_args!("  poles: {} rad/s", roots_text(&main.poles)));
+    line(text, format_args!("  zeros: {} rad/s", roots_text(&main.zeros)));
+    line(text, format_args!("  transfer function: {}", main.stability.words()));
+    line(
+        text,
+        format_args!(
+            "  whole state ({}): {}, eigenvalues {} rad/s",
+            main.linearization.states.join(", "),
+            main.internal_stability.words(),
+            roots_text(&main.internal_poles)
+        ),
+    );
+    response(text, "impulse response", &main.impulse);
+    response(text, "step response", &main.step);
+    if let (Some(push), Some(amplitude)) = (point.comparison.parting_push, point.comparison.parting_amplitude)
+    {
+        line(
+            text,
+            format_args!(
+                "  linear and nonlinear part at a push of {} {}·s, where the linear peak is {} {}",
+                significant(push, 4),
+                point.input_unit,
+                significant(amplitude, 4),
+                point.output_unit
+            ),
+        );
+    }
+}
+
+fn response(text: &mut String, name: &str, response: &ResponseReference) {
+    let f = &response.features;
+    let mut facts =
+        vec![f.shape.words().to_owned(), format!("starts at {}", significant(f.initial_value, FIGURES))];
+    facts.push(match f.final_value {
+        Limit::Value(value) => format!("tends to {}", significant(value, FIGURES)),
+        other => other.words().to_owned(),
+    });
+    if let Some(peak) = &f.peak {
+        let (value, time) = (significant(peak.value, FIGURES), significant(peak.time_s, FIGURES));
+        facts.push(format!("largest magnitude {value} at {time} s"));
+    }
+    if let (Some(period), Some(zeta)) = (f.period_s, f.damping_ratio) {
+        facts.push(format!(
+            "period {} s, damping ratio {}",
+            significant(period, FIGURES),
+            significant(zeta, FIGURES)
+        ));
+    }
+    if let Some(settling) = f.settling_time_2_percent_s {
+        facts.push(format!("within 2 % after {} s", significant(settling, FIGURES)));
+    }
+    line(text, format_args!("  {name}: {}", facts.join("; ")));
+}
+
+fn roots_text(roots: &[Pole]) -> String {
+    let mut words = Vec::new();
+    for root in roots.iter().filter(|root| root.im >= 0.0) {
+        let (re, im) = (significant(root.re, FIGURES), significant(root.im, FIGURES));
+        let value = if root.im > 0.0 { format!("{re} ± {im}j") } else { re };
+        words.push(match root.multiplicity {
+            1 => value,
+            m => format!("{value} (×{m})"),
+        });
+    }
+    if words.is_empty() { "none".to_owned() } else { words.join(", ") }
+}
+
+fn line(text: &mut String, words: std::fmt::Arguments<'_>) {
+    // Writing to a String cannot fail.
+    let _ = writeln!(text, "{words}");
+}
