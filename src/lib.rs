@@ -13,6 +13,7 @@
 //!        │
 //!     grading                Criterion → Evidence → Verdict → Scorecard
 //!     report                 Scorecard → view → figure → svg → html
+//!     proof                  a lab proves itself: stated values, second route, model answer, blank
 //!     class                  many submissions: in parallel, gradebook, statistics
 //!     cli                    new · check · grade · verify · reference
 //! ```
@@ -32,4 +33,5 @@ pub mod reference;
 pub mod class;
 pub mod cli;
 pub mod grading;
+pub mod proof;
 pub mod report;
