@@ -1,0 +1,87 @@
+use super::Marked;
+use crate::lab::LabDefinition;
+use std::io::Write;
+
+/// `gradebook.csv`: a row a student, group members each their own.
+///
+/// Text that a spreadsheet would run as a formula is disarmed with a leading apostrophe.
+pub struct Gradebook<W: Write> {
+    writer: csv::Writer<W>,
+}
+
+impl<W: Write> Gradebook<W> {
+    pub fn new(output: W, lab: &LabDefinition) -> Result<Self, csv::Error> {
+        let mut writer = csv::Writer::from_writer(output);
+        let mut header: Vec<String> =
+            ["student_id", "student_name", "submission", "earned", "possible", "provisional"]
+                .map(str::to_owned)
+                .to_vec();
+        header.extend(lab.questions.iter().map(|q| format!("{} [{}]", q.id, q.points)));
+        header.extend(lab.observed.iter().map(|row| format!("observed.{} [{}]", row.id, row.points)));
+        header.extend(lab.cover.rows.iter().map(|row| format!("cover.{} [{}]", row.id, row.points)));
+        header.push(format!("cover.total [{}]", lab.cover.total));
+        header.extend(["to_review", "findings", "report"].map(str::to_owned));
+        writer.write_record(&header)?;
+        Ok(Self { writer })
+    }
+
+    pub fn add(&mut self, marked: &Marked) -> Result<(), csv::Error> {
+        let card = &marked.scorecard;
+        let shown = |points: Option<crate::lab::Points>| points.map_or(String::new(), |p| p.to_string());
+        for student in &marked.submission.students {
+            let mut row = vec![
+                disarmed(&student.id),
+                disarmed(&student.name),
+                disarmed(&marked.submission.source.name),
+                card.total.earned.to_string(),
+                card.total.possible.to_string(),
+                card.total.provisional.to_string(),
+            ];
+            row.extend(card.questions.iter().map(|q| q.tally.earned.to_string()));
+            row.extend(card.observed.iter().map(|(_, points)| shown(*points)));
+            row.extend(card.cover.iter().map(|(_, _, points)| shown(*points)));
+            row.push(shown(card.cover_total));
+            row.push(marked.items_to_review().count().to_string());
+            row.push(marked.submission.findings.len().to_string());
+            row.push(disarmed(&marked.report));
+            self.writer.write_record(&row)?;
+        }
+        Ok(())
+    }
+
+    pub fn finish(mut self) -> Result<(), std::io::Error> {
+        self.writer.flush()
+    }
+}
+
+/// Spreadsheets run what begins with `=`, `+`, `-`, `@`, a tab or a line end: an apostrophe makes it text. Control
+/// characters are dropped.
+fn disarmed(text: &str) -> String {
+    let clean: String = text.chars().filter(|c| !c.is_control()).collect();
+    let harmless = !clean.trim_start().starts_with(['=', '+', '-', '@', '＝', '＋', '－', '＠']);
+    let began_harmless = !text.starts_with(['\t', '\r', '\n']);
+    if harmless && began_harmless { clean } else { format!("'{clean}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::disarmed;
+
+    #[test]
+    fn formulas_become_text() {
+        for (typed, written) in [
+            ("A. Student", "A. Student"),
+            ("=cmd|' /C calc'!A0", "'=cmd|' /C calc'!A0"),
+            ("+1", "'+1"),
+            ("-1", "'-1"),
+            ("@SUM(A1)", "'@SUM(A1)"),
+            (" =1", "' =1"),
+            ("\t=1", "'=1"),
+            ("\r\nx", "'x"),
+            ("a\u{1b}[31mb", "a[31mb"),
+            ("O'Neil", "O'Neil"),
+        ] {
+            assert_eq!(disarmed(typed), written, "from {typed:?}");
+        }
+    }
+}

@@ -1,0 +1,110 @@
+use super::Marked;
+use crate::source::Severity;
+use serde::Serialize;
+
+/// One line of `results.jsonl`, without the line end. Fields may be added, never renamed.
+pub fn results_line(marked: &Marked) -> Result<String, serde_json::Error> {
+    let submission = &marked.submission;
+    let tally = &marked.scorecard.total;
+    let position = |span: Option<crate::source::Span>| span.map(|s| submission.source.position(s.start));
+    serde_json::to_string(&Line {
+        submission: &submission.id,
+        file: &submission.source.name,
+        students: submission.students.iter().map(|s| StudentView { id: &s.id, name: &s.name }).collect(),
+        total: Total {
+            earned: tally.earned.as_f64(),
+            possible: tally.possible.as_f64(),
+            provisional: tally.provisional.as_f64(),
+        },
+        items: marked
+            .scorecard
+            .questions
+            .iter()
+            .flat_map(|question| &question.items)
+            .map(|item| Item {
+                id: &item.id,
+                earned: item.earned.as_f64(),
+                possible: item.possible.as_f64(),
+                verdict: item.verdict.as_str(),
+                code: item.code,
+                provisional: item.provisional,
+                evidence: EvidenceView {
+                    expected: &item.evidence.expected,
+                    found: &item.evidence.found,
+                    reason: &item.evidence.reason,
+                },
+                line: item.position.map(|p| p.line),
+                column: item.position.map(|p| p.column),
+            })
+            .collect(),
+        findings: submission
+            .findings
+            .iter()
+            .map(|finding| FindingView {
+                severity: match finding.severity {
+                    Severity::Error => "error",
+                    Severity::Warning => "warning",
+                    Severity::Note => "note",
+                },
+                code: finding.code,
+                message: &finding.message,
+                line: position(finding.span).map(|p| p.line),
+                column: position(finding.span).map(|p| p.column),
+            })
+            .collect(),
+        report: &marked.report,
+    })
+}
+
+#[derive(Serialize)]
+struct Line<'a> {
+    submission: &'a str,
+    file: &'a str,
+    students: Vec<StudentView<'a>>,
+    total: Total,
+    items: Vec<Item<'a>>,
+    findings: Vec<FindingView<'a>>,
+    report: &'a str,
+}
+
+#[derive(Serialize)]
+struct StudentView<'a> {
+    id: &'a str,
+    name: &'a str,
+}
+
+#[derive(Serialize)]
+struct Total {
+    earned: f64,
+    possible: f64,
+    provisional: f64,
+}
+
+#[derive(Serialize)]
+struct Item<'a> {
+    id: &'a str,
+    earned: f64,
+    possible: f64,
+    verdict: &'static str,
+    code: &'static str,
+    provisional: bool,
+    evidence: EvidenceView<'a>,
+    line: Option<usize>,
+    column: Option<usize>,
+}
+
+#[derive(Serialize)]
+struct EvidenceView<'a> {
+    expected: &'a str,
+    found: &'a str,
+    reason: &'a str,
+}
+
+#[derive(Serialize)]
+struct FindingView<'a> {
+    severity: &'static str,
+    code: &'static str,
+    message: &'a str,
+    line: Option<usize>,
+    column: Option<usize>,
+}

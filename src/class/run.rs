@@ -1,0 +1,221 @@
+use super::gradebook::Gradebook;
+use super::intake::{AnswerFile, UniqueNames};
+use super::marked::{Marked, our_failure, unmarked, unreadable_submission};
+use super::results::results_line;
+use super::statistics::Statistics;
+use crate::grading::{HandMarksFile, grade};
+use crate::lab::LabDefinition;
+use crate::reference::Reference;
+use crate::report::ReportKit;
+use crate::source::{Finding, Severity};
+use crate::submission::{Folder, Student, Submission, read};
+use rayon::prelude::*;
+use std::io::{self, BufWriter, Read, Write};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+
+/// Submissions in memory at a time; results are written in order after each such group.
+const GROUP: usize = 64;
+/// Answer files are refused far below this; reading stops here.
+const READ_LIMIT: u64 = 1 << 20;
+/// Stack of a worker: formulas and prose nest, within limits, on it.
+const STACK_BYTES: usize = 16 << 20;
+
+/// What to mark, against what, and where to write.
+pub struct ClassJob<'a> {
+    pub lab: &'a LabDefinition,
+    pub reference: &'a Reference,
+    pub kit: &'a ReportKit,
+    pub marks: Option<&'a HandMarksFile>,
+    pub files: &'a [AnswerFile],
+    pub out: &'a Path,
+    /// Worker threads; 0 is one a core.
+    pub threads: usize,
+}
+
+/// What became of a class, for the summary at the end.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Outcome {
+    pub submissions: usize,
+    pub unreadable: usize,
+    /// Submissions that polemark itself failed on.
+    pub failed: usize,
+    /// Submissions with something a person should look at.
+    pub to_review: usize,
+    pub mean_earned: f64,
+    pub possible: f64,
+    /// Ids in the marks file that nobody in the class has.
+    pub marks_without_submission: Vec<String>,
+}
+
+#[derive(Debug, thiserror::Error)]
+pub enum ClassError {
+    #[error("`{}` cannot be written: {error}", path.display())]
+    Write { path: PathBuf, error: io::Error },
+    #[error("the gradebook cannot be written: {0}")]
+    Gradebook(#[from] csv::Error),
+    #[error("a result cannot be written as JSON: {0}")]
+    Json(#[from] serde_json::Error),
+    #[error("no worker threads could be started: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+}
+
+/// At most a little more than an answer file may hold, so that a huge one is refused without being read.
+pub fn read_capped(path: &Path) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    std::fs::File::open(path)?.take(READ_LIMIT).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// Marks every file and writes `index.html`, `reports/…`, `gradebook.csv`, `results.jsonl` into `job.out`.
+///
+/// A bad file never stops the class: it gets a report and a row like any other. Files appear whole or not at all.
+/// `progress` is told after each group how many submissions are done.
+pub fn grade_class(job: &ClassJob<'_>, progress: &dyn Fn(usize)) -> Result<Outcome, ClassError> {
+    let reports = job.out.join("reports");
+    std::fs::create_dir_all(&reports).map_err(|error| ClassError::Write { path: reports, error })?;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(job.threads).stack_size(STACK_BYTES).build()?;
+
+    let results = NewFile::create(job.out.join("results.jsonl"))?;
+    let mut lines = BufWriter::new(results.file.as_file());
+    let gradebook_file = NewFile::create(job.out.join("gradebook.csv"))?;
+    let mut gradebook = Gradebook::new(gradebook_file.file.as_file(), job.lab)?;
+    let mut statistics = Statistics::new(job.lab);
+    let mut names = UniqueNames::default();
+    let mut done = 0;
+
+    for group in job.files.chunks(GROUP) {
+        let submissions: Vec<Submission> =
+            pool.install(|| group.par_iter().map(|file| read_submission(job.lab, file)).collect());
+        // Names depend on who came before, so they are given in order.
+        let named: Vec<(Submission, String)> = submissions
+            .into_iter()
+            .map(|submission| {
+                let name = names.claim(&report_stem(&submission));
+                (submission, format!("reports/{name}.html"))
+            })
+            .collect();
+        let marked: Vec<Marked> = pool.install(|| {
+            named
+                .into_par_iter()
+                .map(|(submission, report)| mark_and_write(job, submission, report))
+                .collect::<Result<_, _>>()
+        })?;
+        for marked in &marked {
+            writeln!(lines, "{}", results_line(marked)?)
+                .map_err(|error| ClassError::Write { path: results.path.clone(), error })?;
+            gradebook.add(marked)?;
+            statistics.add(marked);
+        }
+        done += group.len();
+        progress(done);
+    }
+
+    lines.flush().map_err(|error| ClassError::Write { path: results.path.clone(), error })?;
+    drop(lines);
+    results.finish()?;
+    gradebook.finish().map_err(|error| ClassError::Write { path: gradebook_file.path.clone(), error })?;
+    gradebook_file.finish()?;
+    let mut outcome = statistics.outcome();
+    if let Some(marks) = job.marks {
+        outcome.marks_without_submission = statistics.absent(marks.student_ids());
+    }
+    let index = NewFile::create(job.out.join("index.html"))?;
+    index.write_all(job.kit.class_page(&statistics.summary(job.lab)).as_bytes())?;
+    Ok(outcome)
+}
+
+/// Who it is from, as far as could be read; the file's name otherwise.
+fn report_stem(submission: &Submission) -> String {
+    let ids: Vec<&str> =
+        submission.students.iter().map(|s| s.id.as_str()).filter(|id| !id.is_empty()).collect();
+    if ids.is_empty() { submission.id.clone() } else { ids.join("_") }
+}
+
+fn read_submission(lab: &LabDefinition, file: &AnswerFile) -> Submission {
+    let read = || match read_capped(&file.path) {
+        Ok(bytes) => {
+            let folder = Folder(file.path.parent().unwrap_or(Path::new("")).to_path_buf());
+            read(&file.id, &file.name, &bytes, &lab.sheet, &folder)
+        }
+        Err(error) => unreadable_submission(&file.id, &file.name, not_opened(&error)),
+    };
+    let mut submission = catch_unwind(AssertUnwindSafe(read))
+        .unwrap_or_else(|_| unreadable_submission(&file.id, &file.name, our_failure()));
+    if submission.students.is_empty() {
+        submission.students.push(Student { id: file.id.clone(), name: String::new() });
+    }
+    submission
+}
+
+fn not_opened(error: &io::Error) -> Finding {
+    Finding {
+        severity: Severity::Error,
+        code: "file.not_opened",
+        message: format!("The file could not be opened: {error}."),
+        help: None,
+        span: None,
+    }
+}
+
+fn mark_and_write(
+    job: &ClassJob<'_>,
+    mut submission: Submission,
+    report: String,
+) -> Result<Marked, ClassError> {
+    let marks = job.marks.and_then(|file| submission.students.iter().find_map(|s| file.student(&s.id)));
+    let mut failed = submission.findings.iter().any(|f| f.code == our_failure().code);
+    let scorecard = match catch_unwind(AssertUnwindSafe(|| grade(job.lab, job.reference, &submission, marks)))
+    {
+        Ok(card) if !failed => card,
+        _ => {
+            failed = true;
+            submission.findings.push(our_failure());
+            unmarked(job.lab)
+        }
+    };
+    let page = match catch_unwind(AssertUnwindSafe(|| job.kit.student_page(&submission, &scorecard))) {
+        Ok(page) => page,
+        Err(_) => {
+            failed = true;
+            "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>polemark</title>\
+             <p>polemark could not write this report. The marks are in gradebook.csv and results.jsonl.</p></html>"
+                .to_owned()
+        }
+    };
+    NewFile::create(job.out.join(&report))?.write_all(page.as_bytes())?;
+    Ok(Marked { submission, scorecard, report, failed })
+}
+
+/// A file that takes its name only when it is whole.
+struct NewFile {
+    path: PathBuf,
+    file: tempfile::NamedTempFile,
+}
+
+impl NewFile {
+    fn create(path: PathBuf) -> Result<Self, ClassError> {
+        let folder = path.parent().unwrap_or(Path::new("."));
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".polemark-");
+        // Others may read it, as with any file one writes.
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
+        let file =
+            builder.tempfile_in(folder).map_err(|error| ClassError::Write { path: path.clone(), error })?;
+        Ok(Self { path, file })
+    }
+
+    fn write_all(mut self, bytes: &[u8]) -> Result<(), ClassError> {
+        self.file.write_all(bytes).map_err(|error| ClassError::Write { path: self.path.clone(), error })?;
+        self.finish()
+    }
+
+    fn finish(self) -> Result<(), ClassError> {
+        let Self { path, file } = self;
+        match file.persist(&path) {
+            Ok(_) => Ok(()),
+            Err(failed) => Err(ClassError::Write { path, error: failed.error }),
+        }
+    }
+}
