@@ -1,0 +1,83 @@
+use super::outcome::{Failure, THEIRS, colour_on_stdout, load_lab, write_output};
+use crate::lab::LabDefinition;
+use crate::source::{Severity, sanitize};
+use crate::submission::{Folder, Submission, read, self_check};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Check an answer file before handing it in: can it be read, what is missing, does it contradict itself.
+///
+/// The right answers are not computed and cannot be seen here.
+#[derive(clap::Args)]
+#[command(
+    after_long_help = "Examples:\n  polemark check answers.yaml\n  polemark check answers.yaml --lab labs/mine/lab.yaml\n\nExit code: 0 when all that is there can be read and agrees with itself (blanks included), 1 when not."
+)]
+pub struct Arguments {
+    /// Answer files.
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Embedded lab, or path of a lab file [default: ee361-lab3].
+    #[arg(long)]
+    lab: Option<String>,
+}
+
+pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    let lab = load_lab(arguments.lab.as_deref())?;
+    let mut all_well = true;
+    for path in &arguments.files {
+        let (text, well) = check_file(&lab, path)?;
+        write_output(None, &text)?;
+        all_well &= well;
+    }
+    Ok(if all_well { ExitCode::SUCCESS } else { ExitCode::from(THEIRS) })
+}
+
+fn check_file(lab: &LabDefinition, path: &Path) -> Result<(String, bool), Failure> {
+    let bytes =
+        crate::class::read_capped(path).map_err(|error| Failure::Read { path: path.to_path_buf(), error })?;
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let folder = Folder(path.parent().unwrap_or(Path::new("")).to_path_buf());
+    let submission = read(&stem, &path.to_string_lossy(), &bytes, &lab.sheet, &folder);
+    let mut findings = submission.findings.clone();
+    if submission.readable {
+        findings.extend(self_check(&submission, &lab.sheet));
+    }
+    let (missing, others): (Vec<_>, Vec<_>) = findings.iter().partition(|f| f.code == "answer.missing");
+
+    let colour = colour_on_stdout();
+    let mut text = echo(lab, &submission);
+    for finding in &others {
+        text.push_str(&finding.render(&submission.source, colour));
+        text.push_str("\n\n");
+    }
+    if !missing.is_empty() {
+        text.push_str("Not answered yet:\n");
+        for finding in &missing {
+            text.push_str(&format!("  {}\n", sanitize(&finding.message)));
+        }
+        text.push('\n');
+    }
+    // Disagreements are warnings: only blanks and notes leave a file well.
+    let wrong = others.iter().filter(|f| f.severity != Severity::Note).count();
+    let name = sanitize(&path.to_string_lossy());
+    let counts = format!(
+        "{} of {} answers read, {} to mend, {} blank",
+        submission.answers.values().filter(|a| a.value.is_ok()).count(),
+        lab.sheet.fields.len(),
+        wrong,
+        missing.len()
+    );
+    text.push_str(&format!("{name}: {counts}\n"));
+    Ok((text, wrong == 0 && submission.readable))
+}
+
+/// How each answer was read, so that a misreading is noticed before the deadline.
+fn echo(lab: &LabDefinition, submission: &Submission) -> String {
+    let mut text = String::new();
+    for field in &lab.sheet.fields {
+        if let Some(answer) = submission.answers.get(&field.path).filter(|answer| answer.value.is_ok()) {
+            text.push_str(&format!("  {}: {}\n", field.path, sanitize(&answer.read_as())));
+        }
+    }
+    if text.is_empty() { text } else { format!("Read as:\n{text}\n") }
+}

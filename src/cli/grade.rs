@@ -1,0 +1,114 @@
+use super::outcome::{Failure, OURS, THEIRS, colour_on_stderr, load_with_reference};
+use crate::class::{ClassJob, Outcome, find_answer_files, grade_class};
+use crate::grading::HandMarks;
+use crate::grading::HandMarksFile;
+use crate::lab::LabDefinition;
+use crate::report::ReportKit;
+use crate::source::{Severity, SourceText, sanitize};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Mark answer files: a report for each, a class page, a gradebook.
+#[derive(clap::Args)]
+#[command(
+    after_long_help = "Examples:\n  polemark grade submissions --out out\n  polemark grade a.yaml b.yaml --out out --lab labs/mine/lab.yaml --marks marks.yaml\n\nExit code: 0 when every file got its report (an unreadable file too: it says what is wrong), 1 with --strict when a file could not be read, 2 when polemark failed."
+)]
+pub struct Arguments {
+    /// Answer files, or folders of them.
+    #[arg(required = true, value_name = "PATH")]
+    paths: Vec<PathBuf>,
+    /// Folder for index.html, reports/, gradebook.csv and results.jsonl; made when it is not there.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Embedded lab, or path of a lab file [default: ee361-lab3].
+    #[arg(long)]
+    lab: Option<String>,
+    /// Marks given by a person: viva, observed rows, changed items; never written to.
+    #[arg(long, value_name = "FILE")]
+    marks: Option<PathBuf>,
+    /// Worker threads, 0 for one a core.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    threads: usize,
+    /// End with exit code 1 when a file could not be read.
+    #[arg(long)]
+    strict: bool,
+}
+
+pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    let (lab, reference) = load_with_reference(arguments.lab.as_deref())?;
+    let marks = arguments.marks.as_deref().map(|path| load_marks(path, &lab)).transpose()?;
+    let files = find_answer_files(&arguments.paths, arguments.marks.as_deref())?;
+    let kit = ReportKit::new(&lab, &reference)?;
+    let bar = progress_bar(files.len());
+    let job = ClassJob {
+        lab: &lab,
+        reference: &reference,
+        kit: &kit,
+        marks: marks.as_ref(),
+        files: &files,
+        out: &arguments.out,
+        threads: arguments.threads,
+    };
+    let outcome = grade_class(&job, &|done| bar.set_position(done as u64))?;
+    bar.finish_and_clear();
+    print!("{}", summary(&outcome, &arguments.out));
+    Ok(match &outcome {
+        outcome if outcome.failed > 0 => ExitCode::from(OURS),
+        outcome if outcome.unreadable > 0 && arguments.strict => ExitCode::from(THEIRS),
+        _ => ExitCode::SUCCESS,
+    })
+}
+
+/// A marks file with an error in it would lose a person's mark: nothing is graded until it is mended.
+fn load_marks(path: &Path, lab: &LabDefinition) -> Result<HandMarksFile, Failure> {
+    let text =
+        std::fs::read_to_string(path).map_err(|error| Failure::Read { path: path.to_path_buf(), error })?;
+    let source = SourceText::new(path.to_string_lossy(), text);
+    let (marks, findings) = HandMarks::parse(&source, lab);
+    let mut rendered = String::new();
+    for finding in &findings {
+        rendered.push_str(&finding.render(&source, colour_on_stderr()));
+        rendered.push('\n');
+    }
+    if findings.iter().any(|finding| finding.severity == Severity::Error) {
+        return Err(Failure::Marks { rendered });
+    }
+    eprint!("{rendered}");
+    Ok(marks)
+}
+
+fn progress_bar(submissions: usize) -> ProgressBar {
+    // Drawn on standard error, and only when that is a terminal.
+    let bar = ProgressBar::with_draw_target(Some(submissions as u64), ProgressDrawTarget::stderr());
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} marked, {per_sec}, {eta} left") {
+        bar.set_style(style);
+    }
+    bar
+}
+
+fn summary(outcome: &Outcome, out: &Path) -> String {
+    let shown = |name: &str| sanitize(&out.join(name).to_string_lossy());
+    let mut text = format!(
+        "{} submissions marked, mean {:.1} of {} points\n",
+        outcome.submissions, outcome.mean_earned, outcome.possible
+    );
+    for (count, words) in [
+        (outcome.unreadable, "could not be read: see their reports"),
+        (outcome.to_review, "have marks for a person to confirm"),
+        (outcome.failed, "made polemark fail and are left to a person: please report this"),
+    ] {
+        if count > 0 {
+            text.push_str(&format!("  {count} {words}\n"));
+        }
+    }
+    for id in &outcome.marks_without_submission {
+        text.push_str(&format!("  the marks file has marks for `{}`, who handed nothing in\n", sanitize(id)));
+    }
+    for (what, name) in
+        [("class page", "index.html"), ("gradebook", "gradebook.csv"), ("results", "results.jsonl")]
+    {
+        text.push_str(&format!("  {what}: {}\n", shown(name)));
+    }
+    text
+}

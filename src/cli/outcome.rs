@@ -1,0 +1,96 @@
+use crate::class::{ClassError, IntakeError};
+use crate::lab::{LabDefinition, LoadError};
+use crate::reference::{Reference, ReferenceError};
+use crate::report::ReportError;
+use std::io::{self, IsTerminal, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// The lab's or submission's fault.
+pub const THEIRS: u8 = 1;
+/// Ours or the caller's fault.
+pub const OURS: u8 = 2;
+
+/// Why a verb ended early, as printed.
+#[derive(Debug, thiserror::Error)]
+pub enum Failure {
+    #[error("{}", load_error(.0))]
+    Load(LoadError),
+    #[error("error: {0}")]
+    Reference(#[from] ReferenceError),
+    #[error("error: {0}")]
+    Report(#[from] ReportError),
+    #[error("error: {0}")]
+    Intake(#[from] IntakeError),
+    #[error("error: {0}")]
+    Class(#[from] ClassError),
+    #[error("error: `{}` cannot be read: {error}", path.display())]
+    Read { path: PathBuf, error: io::Error },
+    #[error("error: `{}` cannot be written: {error}", path.display())]
+    Write { path: PathBuf, error: io::Error },
+    #[error("error: the output cannot be written: {0}")]
+    Output(#[from] io::Error),
+    #[error("error: the reference cannot be written as JSON: {0}")]
+    Json(#[from] serde_json::Error),
+    #[error("{rendered}")]
+    Marks { rendered: String },
+}
+
+impl Failure {
+    pub fn exit_code(&self) -> ExitCode {
+        ExitCode::from(match self {
+            Self::Load(LoadError::Invalid(_) | LoadError::NotText { .. })
+            | Self::Reference(_)
+            | Self::Marks { .. } => THEIRS,
+            _ => OURS,
+        })
+    }
+
+    pub fn is_broken_pipe(&self) -> bool {
+        matches!(self, Self::Output(error) if error.kind() == io::ErrorKind::BrokenPipe)
+    }
+}
+
+fn load_error(error: &LoadError) -> String {
+    match error {
+        LoadError::Invalid(errors) => errors.render(colour_on_stderr()),
+        other => format!("error: {other}"),
+    }
+}
+
+pub fn load_lab(lab: Option<&str>) -> Result<LabDefinition, Failure> {
+    crate::lab::load(lab.unwrap_or(crate::lab::DEFAULT)).map_err(Failure::Load)
+}
+
+pub fn load_with_reference(lab: Option<&str>) -> Result<(LabDefinition, Reference), Failure> {
+    let lab = load_lab(lab)?;
+    let reference = Reference::compute(&lab)?;
+    Ok((lab, reference))
+}
+
+/// Colour only on a terminal, and never when `NO_COLOR` is set.
+pub fn colour_on_stderr() -> bool {
+    io::stderr().is_terminal() && no_color_is_unset()
+}
+
+pub fn colour_on_stdout() -> bool {
+    io::stdout().is_terminal() && no_color_is_unset()
+}
+
+fn no_color_is_unset() -> bool {
+    std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+}
+
+/// To `path`, or to standard output.
+pub fn write_output(path: Option<&PathBuf>, text: &str) -> Result<(), Failure> {
+    match path {
+        Some(path) => {
+            std::fs::write(path, text).map_err(|error| Failure::Write { path: path.clone(), error })
+        }
+        None => {
+            let mut stdout = io::stdout().lock();
+            stdout.write_all(text.as_bytes())?;
+            Ok(stdout.flush()?)
+        }
+    }
+}

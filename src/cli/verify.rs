@@ -1,0 +1,50 @@
+use super::outcome::{Failure, THEIRS, colour_on_stdout, load_with_reference, write_output};
+use crate::proof::{Check, prove};
+use crate::source::{Finding, Severity, SourceText};
+use std::process::ExitCode;
+
+/// Prove a lab: its key agrees with stated values and a second route, the model answer earns full marks, a blank none.
+#[derive(clap::Args)]
+#[command(
+    after_long_help = "Examples:\n  polemark verify\n  polemark verify labs/mine/lab.yaml\n\nExit code: 0 when the lab holds, 1 when anything fails."
+)]
+pub struct Arguments {
+    /// Embedded lab, or path of a lab file [default: ee361-lab3].
+    lab: Option<String>,
+}
+
+pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    let (lab, reference) = load_with_reference(arguments.lab.as_deref())?;
+    let checks = prove(&lab, &reference);
+    let failed = checks.iter().filter(|check| !check.holds).count();
+    let mut text = String::new();
+    for check in &checks {
+        text.push_str(&shown(check, &lab.text));
+    }
+    text.push_str(&match failed {
+        0 => format!("{}: proven, {} checks hold\n", lab.id, checks.len()),
+        n => format!("{}: NOT proven, {n} of {} checks fail\n", lab.id, checks.len()),
+    });
+    write_output(None, &text)?;
+    Ok(if failed == 0 { ExitCode::SUCCESS } else { ExitCode::from(THEIRS) })
+}
+
+fn shown(check: &Check, lab: &SourceText) -> String {
+    if check.holds {
+        return format!("ok    {}: {}\n", check.what, check.found);
+    }
+    let line = format!("FAIL  {}: {}\n", check.what, check.found);
+    match check.span {
+        None => line,
+        Some(span) => {
+            let finding = Finding {
+                severity: Severity::Error,
+                code: "verify.failed",
+                message: check.found.clone(),
+                help: None,
+                span: Some(span),
+            };
+            format!("{line}{}\n", finding.render(lab, colour_on_stdout()))
+        }
+    }
+}
