@@ -1,0 +1,309 @@
+//! The program as its users run it: every verb, its outputs and its exit codes.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// A run of the real program in a folder of its own.
+struct Bench {
+    folder: tempfile::TempDir,
+}
+
+impl Bench {
+    fn new() -> Self {
+        Self { folder: tempfile::tempdir().expect("a temporary folder") }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn write(&self, name: &str, text: &str) -> PathBuf {
+        let path = self.path(name);
+        std::fs::create_dir_all(path.parent().expect("a folder")).expect("made");
+        std::fs::write(&path, text).expect("written");
+        path
+    }
+
+    fn run(&self, arguments: &[&str]) -> Ran {
+        let output = Command::new(env!("CARGO_BIN_EXE_polemark"))
+            .args(arguments)
+            .current_dir(self.folder.path())
+            .env("NO_COLOR", "1")
+            .output()
+            .expect("the program starts");
+        Ran::from(output)
+    }
+}
+
+struct Ran {
+    code: Option<i32>,
+    out: String,
+    err: String,
+}
+
+impl From<Output> for Ran {
+    fn from(output: Output) -> Self {
+        Self {
+            code: output.status.code(),
+            out: String::from_utf8(output.stdout).expect("UTF-8"),
+            err: String::from_utf8(output.stderr).expect("UTF-8"),
+        }
+    }
+}
+
+impl Ran {
+    #[track_caller]
+    fn ends_with(self, code: i32) -> Self {
+        assert_eq!(self.code, Some(code), "out: {}\nerr: {}", self.out, self.err);
+        self
+    }
+}
+
+fn samples() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions")
+}
+
+fn embedded_lab() -> &'static str {
+    polemark::lab::embedded().iter().find(|(id, _)| *id == polemark::lab::DEFAULT).expect("embedded").1
+}
+
+fn files_below(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    walkdir::WalkDir::new(folder)
+        .into_iter()
+        .map(|entry| entry.expect("readable"))
+        .filter(|entry| entry.file_type().is_file())
+        .map(|entry| {
+            let name = entry.path().strip_prefix(folder).expect("below").to_string_lossy().into_owned();
+            (name, std::fs::read(entry.path()).expect("read"))
+        })
+        .collect()
+}
+
+#[test]
+fn grade_writes_four_outputs_for_every_file_and_the_same_bytes_every_time() {
+    let bench = Bench::new();
+    let samples = samples();
+    let count = files_below(&samples).keys().filter(|name| name.ends_with(".yaml")).count();
+    assert!(count >= 15);
+    let source = samples.to_string_lossy();
+    bench.run(&["grade", &source, "--out", "one", "--threads", "1"]).ends_with(0);
+    bench.run(&["grade", &source, "--out", "two", "--threads", "2"]).ends_with(0);
+
+    let first = files_below(&bench.path("one"));
+    assert_eq!(first, files_below(&bench.path("two")), "one thread or two must not matter");
+    let reports = first.keys().filter(|name| name.starts_with("reports/")).count();
+    let results = String::from_utf8(first["results.jsonl"].clone()).expect("UTF-8");
+    assert_eq!(reports, count);
+    assert_eq!(results.lines().count(), count);
+    let gradebook = String::from_utf8(first["gradebook.csv"].clone()).expect("UTF-8");
+    assert!(gradebook.lines().count() > count, "a header and at least a row a file");
+    let index = String::from_utf8(first["index.html"].clone()).expect("UTF-8");
+    for report in first.keys().filter(|name| name.starts_with("reports/")) {
+        assert!(index.contains(report.as_str()), "the class page links {report}");
+    }
+}
+
+#[test]
+fn reports_stand_alone_and_carry_no_script() {
+    let bench = Bench::new();
+    bench.run(&["grade", &samples().to_string_lossy(), "--out", "out"]).ends_with(0);
+    for (name, bytes) in files_below(&bench.path("out")) {
+        if !name.ends_with(".html") {
+            continue;
+        }
+        let page = String::from_utf8(bytes).expect("UTF-8").to_lowercase();
+        for forbidden in ["<script", "<iframe", "<object", "<link", "src=\"http", "@import", "url(http", "javascript:", "\u{1b}"] {
+            assert!(!page.contains(forbidden), "{name} contains {forbidden}");
+        }
+        let tags_with_handlers = page.split('<').filter(|tag| {
+            let tag = tag.split('>').next().unwrap_or_default();
+            tag.contains(" onload=") || tag.contains(" onerror=") || tag.contains(" onclick=")
+        });
+        assert_eq!(tags_with_handlers.count(), 0, "{name} has an event handler");
+    }
+}
+
+#[test]
+fn a_line_of_results_has_the_promised_shape() {
+    let bench = Bench::new();
+    let file = samples().join("model-answer.yaml");
+    bench.run(&["grade", &file.to_string_lossy(), "--out", "out"]).ends_with(0);
+    let text = std::fs::read_to_string(bench.path("out/results.jsonl")).expect("written");
+    let line: serde_json::Value = serde_json::from_str(text.trim()).expect("JSON");
+    assert_eq!(line["submission"], "model-answer");
+    assert_eq!(line["total"]["earned"], line["total"]["possible"]);
+    assert!(line["total"]["provisional"].is_number());
+    assert!(line["students"][0]["id"].is_string() && line["students"][0]["name"].is_string());
+    for item in line["items"].as_array().expect("items") {
+        assert!(item["id"].is_string() && item["verdict"].is_string() && item["code"].is_string());
+        assert!(item["earned"].is_number() && item["possible"].is_number());
+        assert!(item["line"].is_number() && item["column"].is_number(), "{item}");
+        let reason = item["evidence"]["reason"].as_str().expect("a reason");
+        assert!(!reason.is_empty(), "{item}");
+    }
+    assert!(line["findings"].as_array().expect("findings").is_empty());
+}
+
+#[test]
+fn the_reference_is_exact_to_every_digit_json_holds() {
+    let bench = Bench::new();
+    let json = bench.run(&["reference", "--format", "json"]).ends_with(0).out;
+    let key: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    let points = &key["models"][0]["operating_points"];
+    // By hand, from the equations of the handout: monic, so divided by 0.0132.
+    let near = |value: &serde_json::Value, truth: f64| {
+        let value = value.as_f64().expect("a number");
+        assert!((value - truth).abs() <= 1e-14 * truth.abs(), "{value} is not {truth}");
+    };
+    for (point, gravity) in [(&points[0], 1.0), (&points[1], -1.0)] {
+        let g = &point["transfer_function"];
+        assert_eq!(g["num"].as_array().map(Vec::len), Some(2));
+        near(&g["num"][0], -gravity * 0.06 / 0.0132);
+        assert_eq!(g["num"][1], 0.0);
+        near(&g["den"][0], 1.0);
+        near(&g["den"][1], 0.0024 / 0.0132);
+        near(&g["den"][2], gravity * 0.41202 / 0.0132);
+        near(&g["den"][3], gravity * 0.05886 / 0.0132);
+        for pole in point["poles"].as_array().expect("poles") {
+            assert!(pole["error_bound"].as_f64().expect("a bound") < 1e-12);
+            assert_eq!(pole["multiplicity"], 1);
+        }
+    }
+    assert_eq!(points[0]["stability"], "asymptotically_stable");
+    assert_eq!(points[0]["internal_stability"], "marginally_stable");
+    assert_eq!(points[1]["stability"], "unstable");
+    assert_eq!(points[1]["internal_stability"], "unstable");
+    assert_eq!(points[0]["impulse"]["final_value"], 0.0);
+    assert!(points[1]["impulse"]["final_value"].is_null());
+    assert!(key["simulations"].as_array().expect("simulations").len() >= 4);
+    for simulation in key["simulations"].as_array().expect("simulations") {
+        assert!(simulation["samples"][0].as_array().is_some_and(|s| s.len() == 3));
+        assert!(!simulation["switch_times"].as_array().expect("times").is_empty());
+    }
+}
+
+#[test]
+fn other_formats_of_the_key() {
+    let bench = Bench::new();
+    let text = bench.run(&["reference"]).ends_with(0).out;
+    assert!(text.contains("poles") && text.contains("stable"));
+    bench.run(&["reference", "--format", "html", "--out", "key.html"]).ends_with(0);
+    let page = std::fs::read_to_string(bench.path("key.html")).expect("written");
+    assert!(page.contains("<svg") && page.contains("<math"));
+}
+
+#[test]
+fn verify_passes_the_lab_and_fails_a_changed_copy() {
+    let bench = Bench::new();
+    let passed = bench.run(&["verify"]).ends_with(0).out;
+    assert!(passed.contains("proven"));
+    let copy = bench.write("copy/lab.yaml", embedded_lab());
+    bench.run(&["verify", &copy.to_string_lossy()]).ends_with(0);
+    let changed = embedded_lab().replacen("0.2083", "0.2084", 1);
+    assert_ne!(changed, embedded_lab());
+    let changed = bench.write("changed/lab.yaml", &changed);
+    let failed = bench.run(&["verify", &changed.to_string_lossy()]).ends_with(1).out;
+    assert!(failed.contains("FAIL"), "{failed}");
+}
+
+#[test]
+fn the_template_is_blank_and_welcome() {
+    let bench = Bench::new();
+    let template = bench.run(&["new"]).ends_with(0).out;
+    let file = bench.write("answers.yaml", &template);
+    let checked = bench.run(&["check", &file.to_string_lossy()]).ends_with(0).out;
+    assert!(checked.contains("0 of "), "{checked}");
+    // A file that may hold answers is never overwritten.
+    bench.run(&["new", "--out", "answers.yaml"]).ends_with(2);
+    assert_eq!(std::fs::read_to_string(&file).expect("still there"), template);
+}
+
+#[test]
+fn check_finds_what_cannot_be_read_and_says_where() {
+    let bench = Bench::new();
+    let file = bench.write(
+        "answers.yaml",
+        "lab: ee361-lab3\nstudent: {id: EE-1, name: A. Student}\nanswers:\n  hanging.response:\n    poles: [-2+j3..1]\n",
+    );
+    let ran = bench.run(&["check", &file.to_string_lossy()]).ends_with(1);
+    assert!(ran.out.contains(":5:"), "{}", ran.out);
+    assert!(ran.out.contains('^'), "{}", ran.out);
+}
+
+#[test]
+fn check_finds_contradictions_within_a_file() {
+    let bench = Bench::new();
+    let file = bench.write(
+        "answers.yaml",
+        "lab: ee361-lab3\nstudent: {id: EE-1, name: A. Student}\nanswers:\n  hanging.response:\n    poles: [2, -3]\n    stability: stable\n",
+    );
+    bench.run(&["check", &file.to_string_lossy()]).ends_with(1);
+}
+
+/// `check` is built without the reference: another key must not change one byte of what it says.
+#[test]
+fn check_cannot_leak_the_key() {
+    let bench = Bench::new();
+    let answers = "lab: ee361-lab3\nstudent: {id: EE-1, name: A. Student}\nanswers:\n  hanging.transfer_function: -0.06s/(0.0132s^3+0.0024s^2+0.412s+0.0589)\n  hanging.response: {stability: unstable, poles: [-1], final_value: 3}\n";
+    let file = bench.write("answers.yaml", answers);
+    let right = bench.write("right/lab.yaml", embedded_lab());
+    let other = embedded_lab().replacen("0.2083", "0.3", 2).replace("m*g*l*sin(theta)", "2*m*g*l*sin(theta)");
+    assert_ne!(other, embedded_lab());
+    let other = bench.write("other/lab.yaml", &other);
+    let said = |lab: &Path| bench.run(&["check", &file.to_string_lossy(), "--lab", &lab.to_string_lossy()]);
+    let (a, b) = (said(&right), said(&other));
+    assert_eq!((a.code, a.out), (b.code, b.out));
+}
+
+#[test]
+fn exit_codes_say_whose_fault_it_is() {
+    let bench = Bench::new();
+    let broken_lab = bench.write("broken/lab.yaml", "id: [");
+    let malformed = samples().join("malformed.yaml");
+    let malformed = malformed.to_string_lossy();
+    let check = |arguments: &[&str], code: i32, said: &str| {
+        let ran = bench.run(arguments).ends_with(code);
+        assert!(ran.err.contains(said) || ran.out.contains(said), "out: {}\nerr: {}", ran.out, ran.err);
+    };
+    check(&["grade", &malformed, "--out", "o1"], 0, "could not be read");
+    check(&["grade", &malformed, "--out", "o2", "--strict"], 1, "could not be read");
+    check(&["check", &malformed], 1, "malformed.yaml");
+    check(&["verify", &broken_lab.to_string_lossy()], 1, "error");
+    check(&["verify", "ee361-lab4"], 2, "ee361-lab3");
+    check(&["grade", "no/such/folder", "--out", "o3"], 2, "does not exist");
+    check(&["grade", "--out", "o4"], 2, "PATH");
+    check(&["check", "no-such-file.yaml"], 2, "no-such-file.yaml");
+}
+
+#[test]
+fn marks_given_by_a_person_count_and_make_the_cover_whole() {
+    let bench = Bench::new();
+    let file = bench.write("a.yaml", "lab: ee361-lab3\nstudent: {id: EE-1, name: A. Student}\nanswers:\n  speaker.nonlinearity: saturation\n");
+    let lab = polemark::lab::load(polemark::lab::DEFAULT).expect("embedded");
+    let observed: Vec<String> = lab.observed.iter().map(|row| format!("{}: 4", row.id)).collect();
+    let marks = bench.write(
+        "marks.yaml",
+        &format!(
+            "lab: ee361-lab3\nstudents:\n  EE-1:\n    viva: 30\n    observed: {{{}}}\n    items:\n      expect_hanging.oscillates: {{points: 1, reason: said so in the viva}}\n",
+            observed.join(", ")
+        ),
+    );
+    bench
+        .run(&["grade", &file.to_string_lossy(), "--marks", &marks.to_string_lossy(), "--out", "out"])
+        .ends_with(0);
+    let mut rows = csv::Reader::from_path(bench.path("out/gradebook.csv")).expect("written");
+    let headers = rows.headers().expect("headers").clone();
+    let row = rows.records().next().expect("a row").expect("read");
+    let value = |name: &str| {
+        let at = headers.iter().position(|h| h.starts_with(name)).expect("a column");
+        row[at].to_owned()
+    };
+    // Two of 45 by answers, 28 of 35 observed: 65 · 30 / 80 = 24.375, and 30 for the viva.
+    assert_eq!(value("earned"), "2");
+    assert_eq!(value("cover.total"), "54.38");
+    let wrong = bench.write("wrong.yaml", "lab: ee361-lab3\nstudents:\n  EE-1:\n    viva: 99\n");
+    bench
+        .run(&["grade", &file.to_string_lossy(), "--marks", &wrong.to_string_lossy(), "--out", "out2"])
+        .ends_with(1);
+}
