@@ -24,3 +24,55 @@ mod value;
 pub use grade::grade;
 pub use hand_marks::{HandMarks, HandMarksFile, Override};
 pub use scorecard::*;
+
+#[cfg(test)]
+mod tests {
+    /// `"poles.mirrored"` and its like in a source text.
+    fn codes(source: &str) -> Vec<&str> {
+        const FAMILIES: &[&str] = &[
+            "structure",
+            "numerator",
+            "denominator",
+            "poles",
+            "stability",
+            "shape",
+            "value",
+            "plot",
+            "concepts",
+            "nonlinearity",
+            "marks",
+        ];
+        source
+            .split('"')
+            .filter(|text| {
+                text.split_once('.').is_some_and(|(family, rest)| {
+                    FAMILIES.contains(&family)
+                        && !rest.is_empty()
+                        && rest.chars().all(|letter| letter.is_ascii_lowercase() || letter == '_')
+                })
+            })
+            .filter(|code| *code != "marks.yaml")
+            .collect()
+    }
+
+    #[test]
+    fn every_code_is_documented() {
+        let manual = include_str!("../../docs/marking.md");
+        let sources = [
+            include_str!("concepts.rs"),
+            include_str!("hand_marks.rs"),
+            include_str!("nonlinearity.rs"),
+            include_str!("plot.rs"),
+            include_str!("poles.rs"),
+            include_str!("shape.rs"),
+            include_str!("stability.rs"),
+            include_str!("transfer_function.rs"),
+            include_str!("value.rs"),
+        ];
+        let all: Vec<_> = sources.iter().flat_map(|source| codes(source)).collect();
+        assert!(all.len() > 50, "{all:?}");
+        for code in all {
+            assert!(manual.contains(&format!("`{code}`")), "docs/marking.md does not list `{code}`");
+        }
+    }
+}
