@@ -282,11 +282,14 @@ fn swings_visibly(response: &Response, extrema: &[Extremum]) -> bool {
 }
 
 #[cfg(test)]
+#[allow(clippy::excessive_precision, reason = "as many digits as the source gives")]
 mod tests {
     use super::Limit::{MinusInfinity, Oscillates, OscillatesUnbounded, PlusInfinity, Value};
     use super::*;
+    use crate::algebra::Polynomial;
     use crate::lti::InputKind::{Impulse, Step};
     use crate::lti::tests::{HANGING, UPRIGHT, tf};
+    use crate::lti::{TransferFunction, matrix_exponential_response};
 
     fn features(g: (&str, &str), kind: InputKind) -> Features {
         Features::of(&Response::new(&tf(g.0, g.1), kind).unwrap())
@@ -523,5 +526,64 @@ mod tests {
         assert_eq!(Shape::ExponentialDecay.words(), "an exponential approach to the final value");
         assert_eq!(Value(0.25).words(), "0.25");
         assert_eq!(OscillatesUnbounded.as_str(), "oscillates_unbounded");
+    }
+
+    /// What the closed form says, held against a second route and against brute force, for a hundred systems.
+    #[test]
+    fn laws() {
+        let mut seed = 1_u64;
+        let mut draw = |n: i64| {
+            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (seed >> 33) as i64 % n
+        };
+        for round in 0..100 {
+            // Products of (s + a) and (s² + bs + c), all on the left, some repeated; a numerator of lower degree.
+            let mut den = Polynomial::one();
+            while den.degree() < 1 + draw(5) as usize {
+                let (a, b, c) = (1 + draw(9), 1 + draw(4), 5 + draw(40));
+                let factor = if draw(2) == 0 { vec![1, a] } else { vec![1, b, c] };
+                den = &den * &Polynomial::from_integers(&factor);
+            }
+            let num: Vec<i64> = (0..den.degree()).map(|_| draw(11) - 5).collect();
+            let g = TransferFunction::new(Polynomial::from_integers(&num), den).unwrap();
+            let kind = if round % 2 == 0 { Impulse } else { Step };
+            let response = Response::new(&g, kind).unwrap();
+            let found = Features::of(&response);
+            let what = format!("{} to {kind:?}", g.to_text(6));
+
+            let end = response.horizon_s();
+            let times: Vec<f64> = (0..=2000).map(|k| end * f64::from(k) / 2000.0).collect();
+            let values: Vec<f64> = times.iter().map(|&t| response.at(t)).collect();
+            let highest = values.iter().fold(0.0, |top: f64, y| top.max(y.abs()));
+            let few: Vec<f64> = times.iter().copied().step_by(200).collect();
+            let other = matrix_exponential_response(&g, kind, &few).unwrap();
+            for (y, second) in values.iter().step_by(200).zip(other) {
+                assert!((y - second).abs() <= 1e-11 * highest, "{what}: {y} or {second}");
+            }
+
+            if let Some(peak) = found.peak {
+                assert!(peak.value.abs() >= highest, "{what}: {peak:?} is not the highest");
+            }
+            let turns = values.windows(3).filter(|y| (y[1] - y[0]) * (y[2] - y[1]) < 0.0);
+            let size = |y: &&[f64]| (y[1] - y[0]).abs().max((y[2] - y[1]).abs()) > 1e-9 * highest;
+            let before_end = found.extrema.iter().filter(|e| e.time_s < end).count();
+            assert!(
+                before_end >= turns.filter(size).count().min(EXTREMA_LISTED),
+                "{what}: {:?}",
+                found.extrema
+            );
+
+            let Some(settled) = found.settling_time_5_percent_s else {
+                assert_eq!(found.shape, Shape::Constant, "{what}");
+                continue;
+            };
+            let level = found.final_value.value().unwrap();
+            let deviation = |t: f64| (response.at(t) - level).abs();
+            let most = times.iter().map(|&t| deviation(t)).fold(0.0, f64::max);
+            for &t in times.iter().filter(|&&t| t > settled) {
+                assert!(deviation(t) <= 0.0501 * most, "{what}: outside at {t} s, settled at {settled} s");
+            }
+            assert!(deviation(settled) >= 0.05 * most * (1.0 - 1e-9), "{what}: settled before {settled} s");
+        }
     }
 }

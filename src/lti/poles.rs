@@ -109,13 +109,10 @@ fn rounded(disc: &Disc, multiplicity: usize, p: &[IBig]) -> Result<Pole, RootErr
 }
 
 #[cfg(test)]
+#[allow(clippy::excessive_precision, reason = "as many digits as the source gives")]
 mod tests {
     use super::*;
-    use crate::algebra::parse_decimal;
-
-    fn decimals(text: &str) -> Polynomial {
-        Polynomial::new(text.split_whitespace().map(|t| parse_decimal(t).unwrap()).collect())
-    }
+    use crate::lti::tests::{HANGING, UPRIGHT, polynomial};
 
     /// (s + 1)(s + 2)…(s + n).
     fn wilkinson(n: i64) -> Polynomial {
@@ -183,37 +180,37 @@ mod tests {
     fn against_many_digits() {
         check(
             "hanging pendulum",
-            &decimals("0.0132 0.0024 0.41202 0.05886"),
+            &polynomial(HANGING.1),
             &[(-0.019467786474327556, 5.5863847121985271, 1), (-0.14288260886952671, 0.0, 1)],
         );
         check(
             "upright pendulum",
-            &decimals("0.0132 0.0024 -0.41202 -0.05886"),
+            &polynomial(UPRIGHT.1),
             &[(5.5679556086373016, 0.0, 1), (-0.14283166170368237, 0.0, 1), (-5.606942128751801, 0.0, 1)],
         );
         check(
             "RLC in SI units",
-            &decimals("1 1e6 1e18 5e19"),
+            &polynomial("1 1e6 1e18 5e19"),
             &[(-50.000000002499875, 0.0, 1), (-499974.99999999875, 999999874.98749312, 1)],
         );
         check(
             "lightly damped and fast",
-            &decimals("1 2.00001 400000000000001.00002 4000000000.00001"),
+            &polynomial("1 2.00001 400000000000001.00002 4000000000.00001"),
             &[(-1e-5, 0.0, 1), (-1.0, 2e7, 1)],
         );
         check(
             "coefficients 1e-12 to 1e12",
-            &decimals("1e-12 1 1e12 1 1e-12"),
+            &polynomial("1e-12 1 1e12 1 1e-12"),
             &[(-5.0e-13, 8.6602540378443865e-13, 1), (-500000000000.0, 866025403784.43865, 1)],
         );
         check(
             "leading coefficient 1e-18",
-            &decimals("1e-18 1 3 2"),
+            &polynomial("1e-18 1 3 2"),
             &[(-1.0, 0.0, 1), (-2.0, 0.0, 1), (-1e18, 0.0, 1)],
         );
         check(
             "Mignotte: two roots agree to 15 digits",
-            &decimals("1 0 0 0 0 0 0 0 -2000000 4000 -2"),
+            &polynomial("1 0 0 0 0 0 0 0 -2000000 4000 -2"),
             &[
                 (6.1321256096893614, 0.0, 1),
                 (4.3359943783972754, 4.3362444144349159, 1),
@@ -226,7 +223,7 @@ mod tests {
         );
         check(
             "s^5 + 2s^4 + 2s^3 + 4s^2 + 11s + 10",
-            &decimals("1 2 2 4 11 10"),
+            &polynomial("1 2 2 4 11 10"),
             &[
                 (0.8950167060408472, 1.4561048548820236, 1),
                 (-1.2406612904699917, 1.0375047051101447, 1),
@@ -238,20 +235,20 @@ mod tests {
     #[test]
     fn roots_closer_than_floating_point_can_tell() {
         // (s + 1)² = ±1e-60: real in one case, not in the other; the multiplicity is 1 all the same.
-        let apart = decimals("1 2 0.999999999999999999999999999999999999999999999999999999999999");
+        let apart = polynomial("1 2 0.999999999999999999999999999999999999999999999999999999999999");
         check("real", &apart, &[(-1.0, 0.0, 1), (-1.0, 0.0, 1)]);
-        let pair = decimals("1 2 1.000000000000000000000000000000000000000000000000000000000001");
+        let pair = polynomial("1 2 1.000000000000000000000000000000000000000000000000000000000001");
         check("a pair", &pair, &[(-1.0, 1e-30, 1)]);
-        let damped = decimals("1 2e-40 1");
+        let damped = polynomial("1 2e-40 1");
         check("damping of 1e-40", &damped, &[(-1e-40, 1.0, 1)]);
     }
 
     #[test]
     fn sizes_and_degrees_at_the_limit() {
-        check("coefficients 1e200", &decimals("1e200 3e200 2e200"), &[(-1.0, 0.0, 1), (-2.0, 0.0, 1)]);
-        check("roots 1e-150 and 1e150", &decimals("1 1e150 1"), &[(-1e-150, 0.0, 1), (-1e150, 0.0, 1)]);
-        assert_eq!(roots(&decimals("1 1e350 1")), Err(RootError::OutOfRange));
-        assert_eq!(roots(&decimals("1 1e-350")), Err(RootError::OutOfRange));
+        check("coefficients 1e200", &polynomial("1e200 3e200 2e200"), &[(-1.0, 0.0, 1), (-2.0, 0.0, 1)]);
+        check("roots 1e-150 and 1e150", &polynomial("1 1e150 1"), &[(-1e-150, 0.0, 1), (-1e150, 0.0, 1)]);
+        assert_eq!(roots(&polynomial("1 1e350 1")), Err(RootError::OutOfRange));
+        assert_eq!(roots(&polynomial("1 1e-350")), Err(RootError::OutOfRange));
         assert_eq!(roots(&Polynomial::zero()), Err(RootError::ZeroPolynomial));
         let high = Polynomial::monomial(Rational::ONE, 61);
         assert_eq!(roots(&high), Err(RootError::DegreeTooHigh { degree: 61, limit: 60 }));

@@ -258,6 +258,7 @@ fn quotient_series(above: &[Wide], below: &[Wide]) -> Vec<Wide> {
 }
 
 #[cfg(test)]
+#[allow(clippy::excessive_precision, reason = "as many digits as the source gives")]
 mod tests {
     use super::InputKind::{Impulse, Step};
     use super::*;

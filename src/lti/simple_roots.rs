@@ -21,7 +21,7 @@ const ROUNDING: f64 = 1.0 + 1e-10;
 /// Radii wanted, relative to each part of the root: 2⁻⁶⁰.
 const PRECISION_BITS: i64 = 60;
 const FIRST_BITS: usize = 128;
-const MOST_BITS: usize = 2048;
+const MOST_BITS: usize = 1024;
 const FLOAT_SWEEPS: usize = 80;
 const EXACT_SWEEPS: usize = 400;
 
@@ -37,7 +37,9 @@ const EXACT_SWEEPS: usize = 400;
 pub(super) fn simple_roots(p: &[IBig], even: bool) -> Result<Vec<Disc>, RootError> {
     let mut points: Vec<Dyadic> = float_roots(p).into_iter().map(Dyadic::near).collect();
     let mut bits = FIRST_BITS;
-    for _ in 0..EXACT_SWEEPS {
+    let mut sweeps = 0;
+    while bits <= MOST_BITS && sweeps < EXACT_SWEEPS {
+        sweeps += 1;
         let values: Vec<Vec<Wide>> = points.iter().map(|z| taylor(p, z, 2)).collect();
         let differences = differences(&points);
         let discs = discs(p, &points, &values, &differences);
@@ -56,17 +58,14 @@ pub(super) fn simple_roots(p: &[IBig], even: bool) -> Result<Vec<Disc>, RootErro
         points = moved;
         if largest_step < 16 - bits as i64 / 2 {
             bits *= 2;
-            if bits > MOST_BITS {
-                break;
-            }
         }
     }
-    Err(RootError::NotConverged { iterations: FLOAT_SWEEPS + EXACT_SWEEPS })
+    Err(RootError::NotConverged { iterations: sweeps })
 }
 
 /// Where the Ehrlich–Aberth iteration in floating point comes to rest, or gives up.
 fn float_roots(p: &[IBig]) -> Vec<Wide> {
-    let coefficients = taylor_free(p);
+    let coefficients = in_floating_point(p);
     let sizes: Vec<Wide> = coefficients.iter().map(|c| c.abs()).collect();
     let mut points = starting_points(&sizes);
     let n = points.len();
@@ -96,8 +95,8 @@ fn float_roots(p: &[IBig]) -> Vec<Wide> {
     points
 }
 
-/// Each coefficient in floating point.
-fn taylor_free(p: &[IBig]) -> Vec<Wide> {
+/// Each coefficient, highest power first: the derivatives at 0 are the coefficients from the other end.
+fn in_floating_point(p: &[IBig]) -> Vec<Wide> {
     let at_zero = Dyadic::near(Wide::ZERO);
     let mut powers = taylor(p, &at_zero, p.len());
     powers.reverse();
@@ -196,11 +195,9 @@ fn discs(
 fn certify(discs: &[Option<Disc>], differences: &[Vec<Wide>], even: bool) -> Option<Vec<Disc>> {
     let discs: Vec<&Disc> = discs.iter().map(Option::as_ref).collect::<Option<_>>()?;
     let reach = |i: usize, j: usize| (discs[i].radius + discs[j].radius) * Wide::real(ROUNDING, 0);
-    for i in 0..discs.len() {
-        for j in 0..i {
-            if differences[i][j].abs().cmp_abs(reach(i, j)) != Ordering::Greater {
-                return None;
-            }
+    for (i, row) in differences.iter().enumerate() {
+        if row[..i].iter().enumerate().any(|(j, d)| d.cmp_abs(reach(i, j)) != Ordering::Greater) {
+            return None;
         }
     }
     // Whether the mirror image of a disc meets no disc but itself.

@@ -116,7 +116,7 @@ fn right_of_regular(p: &Polynomial) -> usize {
     let (of_degree_n, other) = (part(n % 2), part(1 - n % 2));
     let chain = sturm_chain(&of_degree_n, &other);
     let index = sign_changes(&chain, at_minus_infinity) - sign_changes(&chain, at_plus_infinity);
-    let left_less_right = if n % 2 == 0 { -index } else { index };
+    let left_less_right = if n.is_multiple_of(2) { -index } else { index };
     (n as isize - left_less_right).max(0) as usize / 2
 }
 
@@ -169,12 +169,11 @@ fn sign_of(value: &Rational) -> i8 {
 mod tests {
     use super::Stability::{AsymptoticallyStable, MarginallyStable, Unstable};
     use super::*;
-    use crate::algebra::parse_decimal;
+    use crate::lti::tests::polynomial;
 
     #[track_caller]
     fn check(what: &str, coefficients: &str, verdict: Stability, right: usize) {
-        let numbers = coefficients.split_whitespace().map(|t| parse_decimal(t).unwrap());
-        let p = Polynomial::new(numbers.collect());
+        let p = polynomial(coefficients);
         assert_eq!(stability(&p), verdict, "{what}");
         assert_eq!(right_half_plane_roots(&p), right, "{what}: roots on the right");
         let mirrored = right_half_plane_roots(&p.mirror());

@@ -58,6 +58,7 @@ impl StateSpace {
 mod tests {
     use super::*;
     use crate::algebra::parse_decimal;
+    use crate::lti::tests::polynomial;
 
     /// Rows separated by `;`.
     fn matrix(text: &str) -> Matrix {
@@ -65,17 +66,13 @@ mod tests {
         Matrix { rows: text.split(';').map(row).collect() }
     }
 
-    fn decimals(text: &str) -> Polynomial {
-        Polynomial::new(text.split_whitespace().map(|t| parse_decimal(t).unwrap()).collect())
-    }
-
     #[track_caller]
     fn check(what: &str, [a, b, c, d]: [&str; 4], num: &str, den: &str) {
         let system = StateSpace { a: matrix(a), b: matrix(b), c: matrix(c), d: matrix(d) };
         let g = system.transfer_function();
-        assert_eq!(g.num, decimals(num), "{what}: numerator");
-        assert_eq!(g.den, decimals(den), "{what}: denominator");
-        assert_eq!(system.characteristic_polynomial(), decimals(den), "{what}: characteristic polynomial");
+        assert_eq!(g.num, polynomial(num), "{what}: numerator");
+        assert_eq!(g.den, polynomial(den), "{what}: denominator");
+        assert_eq!(system.characteristic_polynomial(), polynomial(den), "{what}: characteristic polynomial");
     }
 
     #[test]
@@ -110,7 +107,7 @@ mod tests {
             d: matrix("0"),
         };
         let expected =
-            TransferFunction { num: decimals("-0.06 0"), den: decimals("0.0132 0.0024 0.41202 0.05886") };
+            TransferFunction { num: polynomial("-0.06 0"), den: polynomial("0.0132 0.0024 0.41202 0.05886") };
         assert!(system.transfer_function().equals(&expected));
         assert_eq!(system.characteristic_polynomial().trailing_zeros(), 1);
     }

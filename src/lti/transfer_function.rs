@@ -87,15 +87,7 @@ fn in_parentheses(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::algebra::parse_decimal;
-
-    fn decimals(text: &str) -> Polynomial {
-        Polynomial::new(text.split_whitespace().map(|t| parse_decimal(t).unwrap()).collect())
-    }
-
-    fn tf(num: &str, den: &str) -> TransferFunction {
-        TransferFunction::new(decimals(num), decimals(den)).unwrap()
-    }
+    use crate::lti::tests::{polynomial, tf};
 
     #[test]
     fn common_factors_are_taken_out_exactly() {
@@ -103,7 +95,7 @@ mod tests {
         fn check(what: &str, num: &str, den: &str, reduced: (&str, &str), shared: &str) {
             let (g, factor) = tf(num, den).cancelled();
             assert_eq!(g, tf(reduced.0, reduced.1), "{what}");
-            assert_eq!(factor, decimals(shared), "{what}");
+            assert_eq!(factor, polynomial(shared), "{what}");
             assert!(g.equals(&tf(num, den)), "{what}");
         }
         check("nothing in common", "1", "1 2", ("1", "1 2"), "1");
