@@ -26,6 +26,9 @@ const OF_A_RESPONSE: &[&str] = &[
     "slowest_time_constant_s",
     "settling_time_2_percent_s",
     "settling_time_5_percent_s",
+    "overshoot_percent",
+    "rise_time_10_90_s",
+    "rise_time_0_100_s",
 ];
 
 const OF_A_COMPARISON: &[&str] =
@@ -130,11 +133,9 @@ fn alternative(rest: &str) -> Option<&str> {
 /// `a + bj`.
 fn complex(text: &str) -> Option<(Rational, Rational)> {
     let compact: String = text.strip_suffix('j')?.split_whitespace().collect();
-    let split = compact
-        .char_indices()
-        .filter(|(i, c)| *i > 0 && matches!(c, '+' | '-') && !compact[..*i].ends_with(['e', 'E']))
-        .map(|(i, _)| i)
-        .last();
+    let sign =
+        |(i, c): &(usize, char)| *i > 0 && matches!(c, '+' | '-') && !compact[..*i].ends_with(['e', 'E']);
+    let split = compact.char_indices().rev().find(sign).map(|(i, _)| i);
     let (re, im) = compact.split_at(split.unwrap_or(0));
     let re = if re.is_empty() { Rational::ZERO } else { parse_decimal(re).ok()? };
     Some((re, parse_decimal(im.strip_prefix('+').unwrap_or(im)).ok()?))
