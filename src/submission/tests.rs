@@ -176,7 +176,7 @@ fn an_unreadable_value_costs_only_its_own_field() {
         ("low.response.poles", "[[-1, 2]]", "poles.unreadable", "[-1, 2]", "`-2+3.1j`"),
         ("low.response.initial_value", "-0,143", "number.decimal_comma", "0,143", "`-0.143`"),
         ("low.response.initial_value", "[0]", "value.unreadable", "[0]", ""),
-        ("low.response.stability", "yes", "stability.unreadable", "yes", "`stable`"),
+        ("low.response.stability", "maybe", "stability.unreadable", "maybe", "`stable`"),
         ("low.response.stability", "stabel", "stability.unreadable", "stabel", "Did you mean `stable`?"),
         ("low.response.stability", "not unstable", "stability.unreadable", "not unstable", "`unstable`"),
         ("low.response.shape", "wobbly", "shape.unreadable", "wobbly", "`decaying oscillation`"),

@@ -40,12 +40,12 @@ pub(super) fn parse_value(text: &str) -> Result<FinalValue, Problem> {
         Unit::Other if number.is_zero() => Ok(FinalValue::Number(number)),
         Unit::Other => Err(Problem::new(
             "value.unit",
-            digits_at + length,
+            text.len() - rest.trim_start().len(),
             text.len(),
             format!("The unit {} would change the number, so the value is not read.", quote(rest)),
         )
         .help("Give the value in SI units without prefix (rad, rad/s, m, s, V), or without a unit.")),
-        Unit::NotAUnit => Err(unreadable(digits_at + length, text.len())),
+        Unit::NotAUnit => Err(unreadable(text.len() - rest.trim_start().len(), text.len())),
     }
 }
 
@@ -209,9 +209,22 @@ fn limit_word(text: &str) -> Option<FinalValue> {
         ["no"] | ["there", "no"] => {
             (flat.contains("limit") || flat.contains("value")).then_some(FinalValue::Unbounded)
         }
-        words if NO_LIMIT.contains(&words.join(" ").as_str()) => Some(FinalValue::Unbounded),
-        _ => None,
+        words => only_no_limit(&words.join(" ")).then_some(FinalValue::Unbounded),
     }
+}
+
+/// One or more of [`NO_LIMIT`] and nothing else: `does not exist (unbounded)`.
+fn only_no_limit(words: &str) -> bool {
+    let mut rest = words;
+    while !rest.is_empty() {
+        let after =
+            |phrase: &&&str| rest.strip_prefix(**phrase).is_some_and(|r| r.is_empty() || r.starts_with(' '));
+        let Some(phrase) = NO_LIMIT.iter().filter(after).max_by_key(|phrase| phrase.len()) else {
+            return false;
+        };
+        rest = rest[phrase.len()..].trim_start();
+    }
+    !words.is_empty()
 }
 
 const FILLERS: &[&str] = &[
@@ -255,8 +268,6 @@ const NO_LIMIT: &[&str] = &[
     "not defined",
     "undefined",
     "blows up",
-    "unbounded diverges",
-    "diverges unbounded",
     "grows unbounded",
     "grows unboundedly",
 ];
@@ -307,6 +318,7 @@ mod tests {
             ("grows without bound", Unbounded),
             ("goes to infinity", Unbounded),
             ("unbounded (diverges)", Unbounded),
+            ("does not exist (unbounded)", Unbounded),
             ("+∞", PlusInfinity),
             ("+ infinity", PlusInfinity),
             ("positive infinity", PlusInfinity),
@@ -327,9 +339,9 @@ mod tests {
             ("0,143", "number.decimal_comma", "0,143", "`0.143`"),
             ("-0,143", "number.decimal_comma", "0,143", "`-0.143`"),
             ("about −2,5 rad", "number.decimal_comma", "2,5", "`-2.5`"),
-            ("5 degrees", "value.unit", " degrees", "SI"),
-            ("5 ms", "value.unit", " ms", "SI"),
-            ("5 apples", "value.unreadable", " apples", "number"),
+            ("5 degrees", "value.unit", "degrees", "SI"),
+            ("5 ms", "value.unit", "ms", "SI"),
+            ("5 apples", "value.unreadable", "apples", "number"),
             ("does not diverge", "value.unreadable", "does not diverge", "number"),
             ("not infinite", "value.unreadable", "not infinite", "number"),
             ("no", "value.unreadable", "no", "number"),

@@ -17,6 +17,10 @@ pub enum NonlinearityKind {
 ///
 /// `None` when no class, or more than one, is named.
 pub fn nonlinearity_word(text: &str) -> Option<NonlinearityKind> {
+    or_without_contrast(text, nonlinearity)
+}
+
+fn nonlinearity(text: &str) -> Option<NonlinearityKind> {
     // `a dead zone due to friction`: what follows is the cause.
     let mut words = Words::new(text)?.before(&["due to", "because", "caused by", "owing to", "since"]);
     if words.has_any(NEGATIONS) || words.has_any(HEDGES) {
@@ -30,14 +34,25 @@ pub fn nonlinearity_word(text: &str) -> Option<NonlinearityKind> {
         "deadband backlash",
         "backlash hysteresis",
     ]);
+    let rate = words.take(RATE_LIMIT);
     let named = NONLINEARITIES.iter().filter(|(_, phrases)| words.has_any(phrases)).map(|(kind, _)| *kind);
-    one(named.chain(backlash.then_some(NonlinearityKind::Backlash)))
+    let named = named.chain(backlash.then_some(NonlinearityKind::Backlash));
+    one(named.chain(rate.then_some(NonlinearityKind::RateLimit)))
 }
 
 /// `stable`, `BIBO stable`, `asymptotically stable`, `not stable`, `the system is unstable` …
 ///
 /// `None` when no class, more than one, or a denied `unstable` is named.
 pub fn stability_word(text: &str) -> Option<Stability> {
+    match text.trim().trim_end_matches('.').to_lowercase().as_str() {
+        // YAML's own words: `stability: no` can mean only one thing.
+        "yes" | "true" => Some(Stability::AsymptoticallyStable),
+        "no" | "false" => Some(Stability::Unstable),
+        _ => or_without_contrast(text, stability),
+    }
+}
+
+fn stability(text: &str) -> Option<Stability> {
     let mut words = Words::new(text)?;
     if words.has_any(HEDGES) || words.has_any(&["conditionally", "marginally unstable"]) {
         return None;
@@ -56,6 +71,10 @@ pub fn stability_word(text: &str) -> Option<Stability> {
 ///
 /// `None` when no shape, or more than one, is named.
 pub fn shape_word(text: &str) -> Option<Shape> {
+    or_without_contrast(text, shape)
+}
+
+fn shape(text: &str) -> Option<Shape> {
     let mut words = Words::new(text)?;
     if words.has_any(HEDGES) {
         return None;
@@ -67,13 +86,15 @@ pub fn shape_word(text: &str) -> Option<Shape> {
         return None;
     }
     let starts = |stems: &[&str]| words.iter().any(|w| stems.iter().any(|s| w.starts_with(s)));
-    let swing = starts(&["oscillat", "sinusoid", "swing", "ringing", "vibrat", "sine", "sinus", "cosine"]);
-    let decay = words.has_any(&["dies out", "die out", "dying"])
+    let swing =
+        starts(&["oscillat", "sinusoid", "swing", "ringing", "vibrat", "sine", "sinus", "cosine", "wave"]);
+    let decay = words.has_any(DECAYS)
         || starts(&[
             "decay", "damped", "damping", "shrink", "diminish", "converg", "settl", "decreas", "fading",
             "fade", "attenuat", "subsid",
         ]);
     let growth = without_bound
+        || words.has_any(GROWS)
         || starts(&[
             "grow",
             "increas",
@@ -130,6 +151,29 @@ pub fn shape_word(text: &str) -> Option<Shape> {
         (false, false, true) if !no_decay && !exponential && !polynomial => Some(Shape::Constant),
         _ => None,
     }
+}
+
+/// What `read` makes of the text, or of the text without what it only sets itself apart from.
+fn or_without_contrast<T>(text: &str, read: impl Fn(&str) -> Option<T>) -> Option<T> {
+    read(text).or_else(|| read(&without_contrast(text)?))
+}
+
+/// `not saturation but dead zone` without `not saturation but`; `stable, not unstable` without `, not unstable`.
+fn without_contrast(text: &str) -> Option<String> {
+    if text.len() > 400 {
+        return None;
+    }
+    let lower = text.to_lowercase();
+    let padded = format!(" {lower}");
+    if let Some(not) = padded.find(" not ")
+        && let Some(but) = padded[not..].find(" but ")
+    {
+        return Some(format!("{} {}", &padded[..not], &padded[not + but + " but ".len()..]));
+    }
+    let comma = [", not ", "; not ", " and not "].iter().filter_map(|mark| lower.find(mark)).min()?;
+    let rest = &lower[comma + 2..];
+    let end = rest.find([',', ';', '.']).map_or("", |i| &rest[i..]);
+    Some(format!("{}{end}", &lower[..comma]))
 }
 
 /// `asymptotically stable`, `marginally stable`, `unstable`.
@@ -259,6 +303,27 @@ const NO_DECAY: &[&str] = &[
     "constant amplitude",
     "fixed amplitude",
 ];
+const DECAYS: &[&str] = &[
+    "dies out",
+    "die out",
+    "dies down",
+    "dying",
+    "becomes smaller",
+    "becoming smaller",
+    "gets smaller",
+    "getting smaller",
+    "calms down",
+];
+const GROWS: &[&str] = &[
+    "becomes larger",
+    "becoming larger",
+    "becomes bigger",
+    "gets larger",
+    "getting larger",
+    "gets bigger",
+    "getting bigger",
+    "blows up",
+];
 const WITHOUT_BOUND: &[&str] = &[
     "without bound",
     "without bounds",
@@ -268,19 +333,21 @@ const WITHOUT_BOUND: &[&str] = &[
     "to infinity",
 ];
 
+/// Taken out first: a rate limiter is no limiter.
+const RATE_LIMIT: &[&str] = &[
+    "rate limiters",
+    "rate limiter",
+    "rate limiting",
+    "rate limited",
+    "slew rate limit",
+    "rate limit",
+    "slew rate",
+];
+
 const NONLINEARITIES: &[(NonlinearityKind, &[&str])] = &[
     (
         NonlinearityKind::Saturation,
-        &[
-            "saturation",
-            "saturated",
-            "saturating",
-            "saturates",
-            "saturate",
-            "clipping",
-            "clipped",
-            "amplitude limiter",
-        ],
+        &["saturation", "saturated", "saturating", "saturates", "saturate", "clipping", "clipped", "limiter"],
     ),
     (
         NonlinearityKind::DeadZone,
@@ -299,10 +366,6 @@ const NONLINEARITIES: &[(NonlinearityKind, &[&str])] = &[
     (
         NonlinearityKind::Quantization,
         &["quantization", "quantisation", "quantizer", "quantiser", "quantized", "quantised", "quantizing"],
-    ),
-    (
-        NonlinearityKind::RateLimit,
-        &["rate limit", "rate limiter", "rate limiting", "rate limited", "slew rate"],
     ),
 ];
 
@@ -411,8 +474,12 @@ mod tests {
                 ("stable if the gain is small", None),
                 ("first stable, then unstable", None),
                 ("stabel", None),
-                ("yes", None),
-                ("no", None),
+                ("yes", Some(AsymptoticallyStable)),
+                ("No", Some(Unstable)),
+                ("not sure", None),
+                ("stable, not unstable", Some(AsymptoticallyStable)),
+                ("not stable but unstable", Some(Unstable)),
+                ("stable but not asymptotically stable", None),
                 ("", None),
                 ("±∞ …", None),
             ],
@@ -452,6 +519,9 @@ mod tests {
                 ("quantization", Some(Quantization)),
                 ("rate limiter", Some(RateLimit)),
                 ("slew-rate limit", Some(RateLimit)),
+                ("limiter", Some(Saturation)),
+                ("not saturation but dead zone", Some(DeadZone)),
+                ("dead zone, not saturation", Some(DeadZone)),
                 ("saturation or dead zone", None),
                 ("dead zone and saturation", None),
                 ("not a dead zone", None),
@@ -502,6 +572,8 @@ mod tests {
                 ("grows linearly", Some(PolynomialGrowth)),
                 ("constant", Some(Constant)),
                 ("flat", Some(Constant)),
+                ("not a sustained but a decaying oscillation", Some(DecayingOscillation)),
+                ("wave that becomes smaller", Some(DecayingOscillation)),
                 ("exponential", None),
                 ("oscillation", None),
                 ("decaying", None),
