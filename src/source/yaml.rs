@@ -327,8 +327,8 @@ fn cover(span: Span, last: Option<usize>, source: &str) -> Span {
 fn byte_span(location: Location, source: &str) -> Span {
     let span = location.span();
     let at = |n: Option<u64>| n.and_then(|n| usize::try_from(n).ok());
-    let start = at(span.byte_offset().map(Into::into)).or_else(|| offset_of(source, location)).unwrap_or(0);
-    let length = at(span.byte_len().map(Into::into)).unwrap_or(0);
+    let start = at(span.byte_offset()).or_else(|| offset_of(source, location)).unwrap_or(0);
+    let length = at(span.byte_len()).unwrap_or(0);
     let Span { start, end } = snap(source, Span { start, end: start.saturating_add(length) });
     // A block scalar's span may swallow the line breaks after it.
     let text = source[start..end].trim_end();

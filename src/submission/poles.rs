@@ -195,14 +195,11 @@ impl Cursor<'_> {
     fn skip_name(&mut self) {
         let rest = self.rest();
         if rest.starts_with(|c: char| c.is_alphabetic()) {
-            let name = rest
-                .char_indices()
-                .find(|(i, c)| {
-                    !(*i == 0
-                        || c.is_ascii_digit()
-                        || matches!(c, '_' | '{' | '}' | ',' | ' ' | '₀'..='₉' | '-' | '/'))
-                })
-                .map(|(i, c)| (i, c));
+            let name = rest.char_indices().find(|(i, c)| {
+                !(*i == 0
+                    || c.is_ascii_digit()
+                    || matches!(c, '_' | '{' | '}' | ',' | ' ' | '₀'..='₉' | '-' | '/'))
+            });
             if let Some((i, c)) = name
                 && matches!(c, '=' | ':' | '≈')
             {

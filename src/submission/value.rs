@@ -45,7 +45,7 @@ pub(super) fn parse_value(text: &str) -> Result<FinalValue, Problem> {
             format!("The unit {} would change the number, so the value is not read.", quote(rest)),
         )
         .help("Give the value in SI units without prefix (rad, rad/s, m, s, V), or without a unit.")),
-        Unit::NotAUnit => Err(unreadable(text.len() - rest.trim_start().len(), text.len())),
+        Unit::Words => Err(unreadable(text.len() - rest.trim_start().len(), text.len())),
     }
 }
 
@@ -80,7 +80,7 @@ enum Unit {
     /// Factor 1 in SI.
     Coherent,
     Other,
-    NotAUnit,
+    Words,
 }
 
 fn unit(text: &str) -> Unit {
@@ -146,7 +146,7 @@ fn unit(text: &str) -> Unit {
         "" => Unit::None,
         unit if COHERENT.contains(&unit) => Unit::Coherent,
         unit if OTHER.contains(&unit) => Unit::Other,
-        _ => Unit::NotAUnit,
+        _ => Unit::Words,
     }
 }
 
