@@ -20,10 +20,11 @@ pub(super) fn samples(response: &Response, end_s: f64, tolerance: f64) -> Vec<(f
     let peak = knots.iter().map(|knot| knot.1.abs()).fold(0.0, f64::max);
     let mut allowed = tolerance.abs().max(1e-9) * peak;
     loop {
-        if let Some(points) = curve(response, &knots, allowed) {
-            return points;
+        match curve(response, &knots, allowed) {
+            Ok(points) => return points,
+            // Half the points need four times the tolerance.
+            Err(drawn) => allowed *= (1.05 * (end_s / drawn).powi(2)).clamp(1.2, 4.0),
         }
-        allowed *= 1.5;
     }
 }
 
@@ -46,8 +47,8 @@ fn knots(response: &Response, start: (f64, f64), end: (f64, f64)) -> Option<Vec<
     Some(knots)
 }
 
-/// Between the knots, steps as long as the chord stays within `allowed`; `None` beyond the number of points allowed.
-fn curve(response: &Response, knots: &[(f64, f64)], allowed: f64) -> Option<Vec<(f64, f64)>> {
+/// Between the knots, steps as long as the chord stays within `allowed`; or the time at which the points ran out.
+fn curve(response: &Response, knots: &[(f64, f64)], allowed: f64) -> Result<Vec<(f64, f64)>, f64> {
     let mut points = vec![knots[0]];
     for pair in knots.windows(2) {
         let (mut from, to) = (pair[0], pair[1]);
@@ -70,11 +71,11 @@ fn curve(response: &Response, knots: &[(f64, f64)], allowed: f64) -> Option<Vec<
             points.push(next);
             from = next;
             if points.len() > MOST_POINTS {
-                return None;
+                return Err(from.0);
             }
         }
     }
-    Some(points)
+    Ok(points)
 }
 
 fn chord_is_close(response: &Response, a: (f64, f64), b: (f64, f64), allowed: f64) -> bool {
