@@ -55,9 +55,11 @@ impl<W: Write> Gradebook<W> {
 }
 
 /// Spreadsheets run what begins with `=`, `+`, `-`, `@`, a tab or a line end: an apostrophe makes it text. Control
-/// characters are dropped.
+/// characters and those that reverse the reading direction are dropped.
 fn disarmed(text: &str) -> String {
-    let clean: String = text.chars().filter(|c| !c.is_control()).collect();
+    let turns =
+        |c: char| matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    let clean: String = text.chars().filter(|c| !c.is_control() && !turns(*c)).collect();
     let harmless = !clean.trim_start().starts_with(['=', '+', '-', '@', '＝', '＋', '－', '＠']);
     let began_harmless = !text.starts_with(['\t', '\r', '\n']);
     if harmless && began_harmless { clean } else { format!("'{clean}") }
@@ -79,6 +81,7 @@ mod tests {
             ("\t=1", "'=1"),
             ("\r\nx", "'x"),
             ("a\u{1b}[31mb", "a[31mb"),
+            ("a\u{202e}b", "ab"),
             ("O'Neil", "O'Neil"),
         ] {
             assert_eq!(disarmed(typed), written, "from {typed:?}");
