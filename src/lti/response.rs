@@ -27,6 +27,14 @@ pub enum ResponseError {
     Roots(#[from] RootError),
 }
 
+/// lim s·Y(s) as s → ∞ of a strictly proper Y(s).
+fn initial_value(driven: &TransferFunction) -> f64 {
+    match (driven.den.degree().checked_sub(1), driven.den.leading()) {
+        (Some(power), Some(leading)) => to_f64(&(driven.num.coefficient(power) / leading)),
+        _ => 0.0,
+    }
+}
+
 /// One term of a partial-fraction expansion in the time domain.
 ///
 /// A real pole (`im` = 0) contributes c · tᵏ/k! · e^{pt}; with `im` > 0 the term stands for the pair and contributes
@@ -106,6 +114,8 @@ pub struct Response {
     pub kind: InputKind,
     /// The area of the δ(t) in an impulse response: the direct feed-through, G(∞). It is no part of y(t) at t ≥ 0⁺.
     pub delta: f64,
+    /// y(0⁺) by the initial value theorem, from exact coefficients: a sum of modes would leave a rounding error for 0.
+    initial: f64,
     modes: Vec<Mode>,
 }
 
@@ -130,12 +140,13 @@ impl Response {
                 (integrated.cancelled().0, 0.0)
             }
         };
+        let initial = initial_value(&driven);
         let modes = if driven.num.is_zero() { Vec::new() } else { partial_fractions(&driven)? };
         let finite = |m: &Mode| m.coefficient_re.is_finite() && m.coefficient_im.is_finite();
-        if !delta.is_finite() || !modes.iter().all(finite) {
+        if !delta.is_finite() || !initial.is_finite() || !modes.iter().all(finite) {
             return Err(ResponseError::OutOfRange);
         }
-        Ok(Self { kind, delta, modes })
+        Ok(Self { kind, delta, initial, modes })
     }
 
     /// The terms, those of the rightmost poles first, the highest power of a pole first; none for the zero response.
@@ -147,7 +158,7 @@ impl Response {
     ///
     /// Growth stops near 1e260: a value is always finite.
     pub fn at(&self, t: f64) -> f64 {
-        self.jet(t)[0]
+        if t == 0.0 { self.initial } else { self.jet(t)[0] }
     }
 
     /// dy/dt at t ≥ 0.
