@@ -116,8 +116,12 @@ pub fn reference_heading(kind: FieldKind) -> &'static str {
 }
 
 /// Whether the field fits in a row of a table.
-pub fn is_short(kind: FieldKind) -> bool {
-    !matches!(kind, FieldKind::TransferFunction | FieldKind::Prose | FieldKind::Figure)
+pub fn is_short(kind: FieldKind, answered: bool) -> bool {
+    match kind {
+        FieldKind::TransferFunction | FieldKind::Prose => false,
+        FieldKind::Figure => !answered,
+        _ => true,
+    }
 }
 
 fn feature_value(features: &Features, kind: FeatureKind, unit: &str) -> String {

@@ -107,7 +107,7 @@ impl QuestionKit {
             .iter()
             .map(|f| FieldKit {
                 path: f.path.clone(),
-                prompt: f.prompt.clone(),
+                prompt: f.prompt.trim().trim_end_matches('.').to_owned(),
                 kind: f.kind,
                 reference_html: answers::reference(reference, &question.criteria, &f.path),
             })

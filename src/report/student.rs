@@ -142,7 +142,7 @@ fn question(
             reference_heading: answers::reference_heading(field.kind),
             reference_html: field.reference_html.clone(),
         };
-        if answers::is_short(field.kind) {
+        if answers::is_short(field.kind, answer.is_some()) {
             short_answers.push(view);
         } else {
             long_answers.push(view);

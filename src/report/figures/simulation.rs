@@ -158,7 +158,11 @@ fn signal_points(signal: &Signal, end_s: f64) -> Vec<(f64, f64)> {
         Signal::Sine { .. } => (0..=STEPS).map(|i| end_s * i as f64 / STEPS as f64).collect(),
         _ => vec![0.0, end_s],
     };
+    // A jump at the very end belongs to what is not shown any more.
     let sliver = end_s * 1e-9;
+    if let Some(last) = instants.last_mut() {
+        *last -= sliver;
+    }
     for t in signal.breaks(end_s).into_iter().take(2_000) {
         instants.extend([t - sliver, t + sliver]);
     }
@@ -205,5 +209,6 @@ mod tests {
         let points = signal_points(&pulses, 6.0);
         let edge = points.windows(2).find(|w| w[0].1 == 5.0 && w[1].1 == 0.0).unwrap();
         assert!((edge[0].0 - 1.5).abs() < 1e-6 && edge[1].0 - edge[0].0 < 1e-6);
+        assert_eq!(points.last().unwrap().1, 0.0, "the pulse that begins at the end is not shown");
     }
 }
