@@ -7,7 +7,7 @@ use super::figures::{
 };
 use super::kit::{ReportKit, trust};
 use super::math;
-use super::numbers::{complex, letter, number, quantity};
+use super::numbers::{complex, letter, number, quantity, typeset};
 use super::pictures::draw;
 use super::view::{AnswerView, FigureView};
 use crate::algebra::{Polynomial, to_f64};
@@ -156,7 +156,7 @@ fn parameters(lab: &LabDefinition) -> Vec<ParameterView> {
         .map(|p| ParameterView {
             symbol_html: math::symbol(&p.name),
             value: p.text.clone(),
-            unit: p.unit.clone(),
+            unit: typeset(&p.unit),
             description: p.description.clone(),
             accepted: accepted(p),
         })
@@ -167,7 +167,7 @@ fn model(kit: &ReportKit, definition: &ModelDefinition, reference: &ModelReferen
     let coordinates = definition.model.coordinates.iter().map(|c| ParameterView {
         symbol_html: math::symbol(&c.name),
         value: String::new(),
-        unit: c.unit.clone(),
+        unit: typeset(&c.unit),
         description: c.description.clone(),
         accepted: String::new(),
     });
@@ -250,7 +250,7 @@ fn typed_value(text: &str) -> String {
 
 fn point_figures(point: &OperatingPointReference, id: impl Fn(&str) -> String) -> Vec<FigureView> {
     let main = point.main();
-    let map = pole_zero(&format!("Poles and zeros, {}", point.title), &main.poles, &main.zeros, None);
+    let map = pole_zero(&format!("{}: poles and zeros", point.title), &main.poles, &main.zeros, None);
     let mut drawn: Vec<_> = draw(&map, &id("map")).into_iter().collect();
     for (kind, response) in [("impulse", &main.impulse), ("step", &main.step)] {
         let prepared = PreparedResponse::new(point, response);
@@ -278,10 +278,16 @@ fn hidden_words(linearization: &Linearization, internal: Stability) -> String {
         return "Nothing cancels: the poles of the transfer function are those of the whole state."
             .to_owned();
     }
-    let places = roots(&linearization.cancelled).map(|r| root_words(&r, 6)).unwrap_or_default();
+    let hidden = roots(&linearization.cancelled).unwrap_or_default();
+    let places = root_words(&hidden, 6);
+    let (eigenvalues, cancel, them) = if hidden.len() == 1 {
+        ("the eigenvalue", "cancels", "it")
+    } else {
+        ("the eigenvalues", "cancel", "them")
+    };
     let mut words = format!(
-        "The whole state also moves with {places}, which cancels between numerator and denominator and so cannot be seen from this \
-         input at this output; with it the state is {}.",
+        "The whole state has, besides, {eigenvalues} {places}, which {cancel} between numerator and denominator: this input and this \
+         output do not show {them}. With {them} the state is {}.",
         internal.words()
     );
     let free: Vec<_> = free_states(linearization).iter().map(|s| letter(s)).collect();
@@ -308,7 +314,7 @@ fn feature_rows(impulse: &Features, step: &Features, unit: &str) -> Vec<FeatureR
         step: value(step),
     };
     let optional = |v: Option<f64>, unit: &str| v.map_or("–".to_owned(), |v| quantity(v, 6, unit));
-    vec![
+    let rows = vec![
         row("Shape", &|f| crate::submission::shape_name(f.shape).to_owned()),
         row("Initial value", &|f| quantity(f.initial_value, 6, unit)),
         row("Final value", &|f| limit_words(f.final_value, unit).trim_start_matches("to ").to_owned()),
@@ -321,9 +327,12 @@ fn feature_rows(impulse: &Features, step: &Features, unit: &str) -> Vec<FeatureR
         row("Damping ratio", &|f| optional(f.damping_ratio, "")),
         row("Natural frequency", &|f| optional(f.natural_frequency_rad_s, "rad/s")),
         row("Slowest time constant", &|f| optional(f.slowest_time_constant_s, "s")),
-        row("Settled within 2 %", &|f| optional(f.settling_time_2_percent_s, "s")),
-        row("Settled within 5 %", &|f| optional(f.settling_time_5_percent_s, "s")),
-    ]
+        row("Settled within 2\u{a0}%", &|f| optional(f.settling_time_2_percent_s, "s")),
+        row("Settled within 5\u{a0}%", &|f| optional(f.settling_time_5_percent_s, "s")),
+        row("Overshoot", &|f| optional(f.overshoot_percent, "%")),
+        row("Rise time, 10 to 90\u{a0}%", &|f| optional(f.rise_time_10_90_s, "s")),
+    ];
+    rows.into_iter().filter(|r| r.impulse != "–" || r.step != "–").collect()
 }
 
 fn alternative(linear: &LinearReference) -> AlternativeView {
@@ -339,7 +348,8 @@ fn alternative(linear: &LinearReference) -> AlternativeView {
 fn simulation(definition: &SimulationDefinition, reference: &SimulationReference) -> SimulationView {
     let id = |kind: &str| anchor("figure", &format!("{}.{kind}", definition.id));
     let unit = &definition.output_unit;
-    let peak = |p: (f64, f64)| format!("{} at {}", quantity(p.0, 8, unit), quantity(p.1, 6, "s"));
+    let peak =
+        |(time, value): (f64, f64)| format!("{} at {}", quantity(value, 8, unit), quantity(time, 6, "s"));
     let times = &reference.with.switch_times;
     let shown: Vec<_> = times.iter().take(12).map(|t| number(*t, 8)).collect();
     let more =
@@ -398,15 +408,21 @@ fn chain_words(definition: &SimulationDefinition) -> String {
         Block::Nonlinearity(Nonlinearity::Backlash { width }) => {
             format!("backlash of width {}", number(*width, 6))
         }
-        Block::Linear { num, den } => format!("({})/({})", powers(num), powers(den)),
+        Block::Linear { num, den } => format!("{}/{}", factor(num), factor(den)),
     });
     [source].into_iter().chain(blocks).collect::<Vec<_>>().join(" → ")
+}
+
+/// A polynomial, in parentheses when it is a sum.
+fn factor(coefficients: &[f64]) -> String {
+    let text = powers(coefficients);
+    if text.contains(' ') { format!("({text})") } else { text }
 }
 
 fn powers(coefficients: &[f64]) -> String {
     let exact = coefficients.iter().map(|c| crate::algebra::from_f64(*c).unwrap_or_default()).collect();
     let text = crate::algebra::polynomial_text(&Polynomial::new(exact), "s", 6);
-    text.replace("s^2", "s²").replace("s^3", "s³").replace('-', "−")
+    typeset(&text)
 }
 
 fn key_question(question: &Question, kit: &super::kit::QuestionKit) -> KeyQuestion {

@@ -32,8 +32,8 @@ fn value_html(value: &AnswerValue, prompt: &str) -> String {
                 None => numbers,
                 Some(formula) => {
                     let as_typed = math::formula(formula);
-                    if as_typed == numbers {
-                        as_typed
+                    if visible(&as_typed) == visible(&numbers) {
+                        numbers
                     } else {
                         format!("{as_typed}<p class=\"muted\">read as</p>{numbers}")
                     }
@@ -54,7 +54,10 @@ fn value_html(value: &AnswerValue, prompt: &str) -> String {
 /// What would have been right, for each field of a question, from the criteria that judge it; empty where there is nothing to show.
 pub fn reference(reference: &Reference, criteria: &[Criterion], path: &str) -> String {
     let mut parts: Vec<String> = Vec::new();
-    for criterion in criteria.iter().filter(|c| c.field == path) {
+    let judges = |c: &&Criterion| {
+        c.field == path || matches!(&c.check, Check::Plot { data: Some(data), .. } if data == path)
+    };
+    for criterion in criteria.iter().filter(judges) {
         let part = expected(reference, &criterion.check);
         if !part.is_empty() && !parts.contains(&part) {
             parts.push(part);
@@ -204,6 +207,11 @@ fn picture(figure: &Figure, prompt: &str) -> String {
         "<img alt=\"{alt}\" width=\"{}\" height=\"{}\" src=\"data:{};base64,{data}\">",
         figure.width, figure.height, figure.media_type
     )
+}
+
+/// What is left of markup without its tags.
+fn visible(markup: &str) -> String {
+    markup.split('<').map(|part| part.split_once('>').map_or(part, |(_, text)| text)).collect()
 }
 
 fn typed(source: &str) -> String {

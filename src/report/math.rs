@@ -35,11 +35,12 @@ pub fn equation(e: &Equation) -> String {
     block(&format!("{}<mo>=</mo>{}", e.left.to_mathml(), e.right.to_mathml()))
 }
 
-/// A linearized equation: the terms, in the given order, equal 0.
+/// A linearized equation: the terms, in the given order, equal 0; signs are turned so that the first is positive.
 pub fn linear_equation(terms: &[(String, Rational)]) -> String {
     let mut inner = String::new();
+    let turn = if terms.first().is_some_and(|(_, c)| to_f64(c) < 0.0) { -1.0 } else { 1.0 };
     for (symbol, coefficient) in terms {
-        let value = to_f64(coefficient);
+        let value = turn * to_f64(coefficient);
         match (inner.is_empty(), value < 0.0) {
             (true, false) => {}
             (false, false) => inner.push_str("<mo>+</mo>"),
@@ -82,16 +83,14 @@ pub fn state_space(a: &Matrix, b: &Matrix, c: &Matrix, d: &Matrix) -> [String; 2
 pub fn state_vector(states: &[String]) -> String {
     let rows: String =
         states.iter().map(|s| format!("<mtr><mtd>{}</mtd></mtr>", symbol_with_primes(s))).collect();
-    block(&format!(
-        "<mi mathvariant=\"normal\">x</mi><mo>=</mo><mrow><mo>(</mo><mtable>{rows}</mtable><mo>)</mo></mrow>"
-    ))
+    block(&format!("<mi mathvariant=\"normal\">x</mi><mo>=</mo><mtable class=\"matrix\">{rows}</mtable>"))
 }
 
 fn matrix(m: &Matrix) -> String {
     let cell = |v: &Rational| format!("<mtd>{}</mtd>", number_mathml(&significant(to_f64(v), 5)));
     let rows: String =
         m.rows.iter().map(|r| format!("<mtr>{}</mtr>", r.iter().map(cell).collect::<String>())).collect();
-    format!("<mrow><mo>(</mo><mtable>{rows}</mtable><mo>)</mo></mrow>")
+    format!("<mtable class=\"matrix\">{rows}</mtable>")
 }
 
 fn symbol_with_primes(name: &str) -> String {
@@ -120,6 +119,6 @@ mod tests {
             .unwrap();
         assert!(transfer_function(&g).contains("<mfrac>"));
         let m = Matrix { rows: vec![vec![Rational::ONE]] };
-        assert_eq!(state_space(&m, &m, &m, &m)[0].matches("<mtable>").count(), 2);
+        assert_eq!(state_space(&m, &m, &m, &m)[0].matches("<mtable ").count(), 2);
     }
 }

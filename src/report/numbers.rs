@@ -25,6 +25,33 @@ pub fn typographic(ascii: &str) -> String {
     text.replace('-', "−")
 }
 
+/// ASCII mathematics in running text as print has it: `-0.0132s^3` → `−0.0132s³`, `kg m^2` → `kg m²`. A hyphen between letters
+/// stays one.
+pub fn typeset(text: &str) -> String {
+    let letters: Vec<char> = text.chars().collect();
+    let mut out = String::with_capacity(text.len());
+    let mut i = 0;
+    while i < letters.len() {
+        let next = letters.get(i + 1).copied();
+        match letters[i] {
+            '^' if next.is_some_and(|c| c.is_ascii_digit() || c == '-') => {
+                let digits = letters[i + 2..].iter().take_while(|c| c.is_ascii_digit()).count();
+                out.extend(letters[i + 1..i + 2 + digits].iter().map(|c| superscript(*c)));
+                i += 2 + digits;
+                continue;
+            }
+            '-' => {
+                let opens = i == 0 || matches!(letters[i - 1], ' ' | '(' | '[' | ',' | '/' | '±' | '“');
+                let counts = next.is_some_and(|c| c.is_ascii_digit() || matches!(c, '.' | ' ' | '(' | '∞'));
+                out.push(if opens && counts { '−' } else { '-' });
+            }
+            c => out.push(c),
+        }
+        i += 1;
+    }
+    out
+}
+
 /// `−0.02 ± 5.59j`, `−0.143`, `3j`: a number or a conjugate pair.
 pub fn complex(re: f64, im: f64, pair: bool, figures: usize) -> String {
     if im == 0.0 {
@@ -125,6 +152,9 @@ mod tests {
             (complex(-0.143, 0.0, false, 3), "−0.143"),
             (counted(1, "point"), "1 point"),
             (counted("0.5", "point"), "0.5 points"),
+            (typeset("-0.0132s^3 - 0.41s (g = -9.8)"), "−0.0132s³ − 0.41s (g = −9.8)"),
+            (typeset("kg m^2, s^-1, 2021-04, dead-zone"), "kg m², s⁻¹, 2021-04, dead-zone"),
+            (typeset("a^, ^"), "a^, ^"),
             (letter("theta"), "θ"),
             (letter("x"), "x"),
             (letter("omega_n"), "ω_n"),

@@ -72,7 +72,7 @@ pub fn of_question(
         let Some(point) = find(reference, &system) else { continue };
         let main = point.main();
         let transfer_function_field = transfer_function_field(lab, &system);
-        let (id, title) = (next_id(), format!("Poles and zeros, {}", point.title));
+        let (id, title) = (next_id(), format!("{}: poles and zeros", point.title));
         let shared = draw(&pole_zero(&title, &main.poles, &main.zeros, None), &id)?;
         pictures.push(Picture::PoleZero(PoleZeroPicture {
             id,

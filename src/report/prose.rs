@@ -64,10 +64,21 @@ pub fn quotes(prose: &str, phrases: &[PhraseMatch]) -> Vec<Quote> {
             let before = &prose[..p.span.start];
             let after = &prose[p.span.end..];
             let from = floor(before, before.len().saturating_sub(CONTEXT));
+            let from = if from == 0 {
+                0
+            } else {
+                from + before[from..].find(char::is_whitespace).map_or(0, |i| i + 1)
+            };
             let to = floor(after, CONTEXT.min(after.len()));
+            let whole = to == after.len();
+            let to = if whole {
+                after.trim_end().len()
+            } else {
+                after[..to].rfind(char::is_whitespace).unwrap_or(to)
+            };
             let one_line = |t: &str| t.replace(|c: char| c.is_control(), " ");
             let lead = if from > 0 { "…" } else { "" };
-            let trail = if to < after.len() { "…" } else { "" };
+            let trail = if whole { "" } else { "…" };
             Some(Quote {
                 before: format!("{lead}{}", one_line(&before[from..])),
                 words: one_line(words),
@@ -317,6 +328,7 @@ mod tests {
             ("money", "$5 and $10", &["$5 and $10"], &["<math"]),
             ("a bad formula", "$\\nonsense x$", &["<code>", "nonsense"], &["merror", "<math"]),
             ("a link", "[x](https://example.org/a)", &["href=\"https://example.org/a\"", "noopener"], &[]),
+            ("a short formula", "($\\theta = 0$)", &["<math", "θ"], &[]),
             ("a table", "|a|b|\n|-|-|\n|1|2|", &["<table>", "<td>1</td>"], &[]),
             ("a heading", "# Title\ntext", &["<strong>Title</strong>"], &["<h1"]),
             ("a comparison", "a < b && c > d", &["a &lt; b &amp;&amp; c &gt; d"], &[]),

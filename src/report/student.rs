@@ -3,6 +3,7 @@
 use super::anchor::item_anchor;
 use super::answers;
 use super::kit::{QuestionKit, ReportKit};
+use super::numbers::typeset;
 use super::prose;
 use super::view::{
     AnswerView, BoxView, FigureView, FindingView, ItemView, LevelView, ObservedView, OutcomeView, TallyView,
@@ -163,7 +164,14 @@ fn question(
 }
 
 fn items(question: &Question, score: &QuestionScore, submission: &Submission) -> Vec<ItemView> {
-    score.items.iter().map(|i| item(question, i, submission)).collect()
+    let mut views: Vec<ItemView> = score.items.iter().map(|i| item(question, i, submission)).collect();
+    // Criteria that judge the same answer need not repeat it.
+    for i in (1..views.len()).rev() {
+        if views[i].found == views[i - 1].found {
+            views[i].found.clear();
+        }
+    }
+    views
 }
 
 fn item(question: &Question, item: &ItemScore, submission: &Submission) -> ItemView {
@@ -179,9 +187,9 @@ fn item(question: &Question, item: &ItemScore, submission: &Submission) -> ItemV
         verdict: VerdictView::of(item.verdict),
         earned: item.earned.to_string(),
         possible: item.possible.to_string(),
-        expected: sanitize(&item.evidence.expected),
-        found: cropped(&item.evidence.found),
-        reason: sanitize(&item.evidence.reason),
+        expected: typeset(&sanitize(&item.evidence.expected)),
+        found: typeset(&cropped(&item.evidence.found)),
+        reason: typeset(&sanitize(&item.evidence.reason)),
         quotes: quotes.into_iter().map(Into::into).collect(),
         provisional: item.provisional,
         override_reason: item.override_reason.as_deref().map(sanitize),

@@ -2,17 +2,22 @@ use crate::report::figure::{Look, Series, extent, padded};
 use crate::report::numbers::quantity;
 use crate::submission;
 
-/// Half the height of the reference, times this, is how far another curve may stretch the picture.
+/// How far beyond the reference another curve may stretch the picture, in heights of the reference: as a whole, or to be seen
+/// leaving when the whole does not fit.
 const STRETCH: f64 = 1.6;
+const GLIMPSE: f64 = 0.35;
 
 /// The range shown: all of the reference and of 0, and as much of the other curves as leaves the reference readable.
 pub fn frame(reference: &[(f64, f64)], others: &[&[(f64, f64)]]) -> (f64, f64) {
     let values = reference.iter().map(|p| p.1).chain([0.0]);
     let (mut low, mut high) = extent(values).unwrap_or((-1.0, 1.0));
     let height = if high > low { high - low } else { 1.0 };
-    let (least, most) = (low - STRETCH * height, high + STRETCH * height);
-    for (_, y) in others.iter().copied().flatten() {
-        if y.is_finite() {
+    let around = |share: f64| (low - share * height, high + share * height);
+    let (wide, glimpse) = (around(STRETCH), around(GLIMPSE));
+    for other in others {
+        let fits = other.iter().all(|(_, y)| (wide.0..=wide.1).contains(y));
+        let (least, most) = if fits { wide } else { glimpse };
+        for (_, y) in other.iter().filter(|(_, y)| y.is_finite()) {
             low = low.min(y.max(least));
             high = high.max(y.min(most));
         }
@@ -67,7 +72,10 @@ mod tests {
         let reference = [(0.0, -1.0), (1.0, 1.0)];
         let wild = [(0.0, 0.0), (1.0, 1e9), (2.0, f64::INFINITY)];
         let (low, high) = frame(&reference, &[&wild]);
-        assert!((-1.6..-1.0).contains(&low) && (4.0..5.0).contains(&high), "{low}..{high}");
+        assert!((-1.6..-1.0).contains(&low) && (1.5..2.0).contains(&high), "{low}..{high}");
+        let (_, high) = frame(&reference, &[&[(0.0, 0.0), (1.0, 3.0)]]);
+        assert!((3.0..3.5).contains(&high), "a curve that fits is shown whole, up to {high}");
+        let (low, high) = frame(&reference, &[&wild]);
         assert_eq!(leaves_at(&wild, (low, high)), Some(1.0));
         assert_eq!(
             leaving_words("Your curve", &wild, (low, high)),

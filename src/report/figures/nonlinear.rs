@@ -10,7 +10,7 @@ pub fn comparison_figure(point: &OperatingPointReference, push: f64, samples: &[
     let nonlinear: Vec<_> = samples.iter().map(|s| (s.0, s.2)).collect();
     let range = frame(&nonlinear, &[&linear]);
     let end_s = samples.last().map_or(1.0, |s| s.0);
-    let title = format!("Push of {}, {}", impulse(point, push), point.title);
+    let title = format!("{}: push of {}", point.title, impulse(point, push));
     let mut figure = Figure::new(
         title,
         Axis::new("time t", "s", 0.0, end_s),

@@ -41,8 +41,8 @@ impl PreparedResponse {
     pub fn new(point: &OperatingPointReference, reference: &ResponseReference) -> Self {
         let unit = &point.output_unit;
         let (kind, title) = match reference.response.kind {
-            InputKind::Impulse => ("unit impulse", "Impulse response"),
-            InputKind::Step => ("unit step", "Step response"),
+            InputKind::Impulse => ("unit impulse", "impulse response"),
+            InputKind::Step => ("unit step", "step response"),
         };
         let whole =
             View { name: String::new(), end_s: reference.horizon_s, reference: reference.samples.clone() };
@@ -50,11 +50,11 @@ impl PreparedResponse {
             Some(period) if reference.horizon_s > MANY_PERIODS * period => {
                 let end_s = FIRST_PERIODS * period;
                 let first = View {
-                    name: format!(": the first {}", quantity(end_s, 2, "s")),
+                    name: format!(", first {}", quantity(end_s, 2, "s")),
                     end_s,
                     reference: reference.response.samples(end_s, TOLERANCE),
                 };
-                vec![first, View { name: ": the whole decay".to_owned(), ..whole }]
+                vec![first, View { name: ", whole decay".to_owned(), ..whole }]
             }
             _ => vec![whole],
         };
@@ -64,7 +64,7 @@ impl PreparedResponse {
             letter(&point.input),
             feature_words(&reference.features, unit)
         );
-        let title = format!("{title}, {}", point.title);
+        let title = format!("{}: {title}", point.title);
         Self { title, output: letter(&point.output), unit: unit.clone(), summary, views }
     }
 

@@ -39,10 +39,10 @@ impl PreparedSimulation {
         figure.summary = format!(
             "Without {kind} the {} goes as far as {} (at {}), with it as far as {} (at {}).{}",
             definition.output,
-            quantity(reference.without.peak.0, 4, unit),
-            quantity(reference.without.peak.1, 4, "s"),
-            quantity(reference.with.peak.0, 4, unit),
-            quantity(reference.with.peak.1, 4, "s"),
+            quantity(reference.without.peak.1, 4, unit),
+            quantity(reference.without.peak.0, 4, "s"),
+            quantity(reference.with.peak.1, 4, unit),
+            quantity(reference.with.peak.0, 4, "s"),
             switch_words(&reference.with.switch_times),
         );
         let curves = [

@@ -211,7 +211,7 @@ fn wrap(text: &str, size: i32, width: i32) -> Vec<String> {
     // Titles are bold, hence a little wider than the table says.
     let fits = |line: &str| text_width(line) * f64::from(size) * 1.06 <= f64::from(width);
     let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
+    for word in text.split(' ').filter(|word| !word.is_empty()) {
         match lines.last_mut() {
             Some(line) if fits(&format!("{line} {word}")) => {
                 line.push(' ');
