@@ -75,7 +75,6 @@ pub fn simulate(chain: &Chain, duration_s: f64) -> Result<Run, ChainError> {
     };
     simulation.take_source_edge()?;
     let first = simulation.motion.output.in_state(&simulation.state)[0];
-    simulation.note_peak(0.0, first);
 
     let end = duration_s.max(0.0);
     let mut step = end / 64.0;
@@ -394,6 +393,7 @@ impl Simulation<'_> {
             }
             self.settle_block(block)?;
         }
+        self.note_peak(self.time, self.motion.output.in_state(&self.state)[0]);
         Ok(())
     }
 }
@@ -692,6 +692,17 @@ mod tests {
                 switch_times: &[1.0 + 2f64.ln()],
                 peak: (1.0 + 2f64.ln(), 1.5),
                 values: &[(0.5, 0.0), (1.0, 1.0), (1.5, 2.0 - (-0.5f64).exp()), (3.0, 1.5)],
+            },
+        );
+        // (2s + 1)/(s + 1) jumps to 2 and falls to 1: the peak is the jump.
+        check(
+            "lag that overshoots at once",
+            &chain(Signal::Step { amplitude: 1.0, time_s: 1.0 }, [linear(&[2.0, 1.0], &[1.0, 1.0])]),
+            4.0,
+            &Expected {
+                switch_times: &[],
+                peak: (1.0, 2.0),
+                values: &[(0.5, 0.0), (2.0, 1.0 + (-1.0f64).exp())],
             },
         );
     }

@@ -7,8 +7,9 @@ use nalgebra::{DMatrix, DVector};
 /// Each linear block advances by the trapezoidal rule (Tustin's discretization), each nonlinearity is applied sample by sample, and
 /// nothing is located. `steps` are spread over `duration_s` between the jumps of the source, where there are two samples.
 ///
-/// Accuracy: the error falls with the square of the step; about 1e-5 of the peak at a thousand steps a period or time
-/// constant, worse for a while after modes faster than a step have been struck.
+/// Accuracy: about 1e-5 of the peak at a thousand steps a period or time constant. The error falls with the square of
+/// the step, but only with the step itself where a backlash turns at a corner of its input, and it is worse for a
+/// while after modes faster than a step have been struck.
 /// Errors: as `simulate`; no more than a million steps are taken.
 /// Source: Åström & Wittenmark, *Computer-Controlled Systems*, 3rd ed., 8.2.
 pub fn simulate_fixed_step(
