@@ -9,7 +9,7 @@ use crate::source::{Finding, Node, Span};
 pub(super) fn decimal_comma_between(items: &[Node], source: &str, poles: bool) -> Option<Finding> {
     let loose = items.windows(2).any(|pair| !tight(&pair[0], &pair[1], source));
     items.windows(2).find_map(|pair| {
-        let (first, second) = (pair[0].as_scalar()?, pair[1].as_scalar()?);
+        let (first, second) = (plain(&pair[0], source)?, plain(&pair[1], source)?);
         let whole = first.trim_start_matches(is_minus);
         let rest = second.trim_start_matches(|c: char| c.is_ascii_digit());
         let digits = &second[..second.len() - rest.len()];
@@ -22,7 +22,7 @@ pub(super) fn decimal_comma_between(items: &[Node], source: &str, poles: bool) -
             return None;
         }
         let start = pair[0].span.start + first.len() - last_number(first).len();
-        let minus = source[..start].ends_with(is_minus);
+        let minus = source.get(..start).is_some_and(|before| before.ends_with(is_minus));
         let start =
             if minus { source[..start].char_indices().next_back().map_or(start, |(i, _)| i) } else { start };
         let end = pair[1].span.start + digits.len();
@@ -42,6 +42,11 @@ pub(super) fn decimal_comma_between(items: &[Node], source: &str, poles: bool) -
             .at(Span { start, end }),
         )
     })
+}
+
+/// The text of a scalar that stands in the file just as it is, without quotes.
+fn plain<'a>(node: &'a Node, source: &str) -> Option<&'a str> {
+    node.as_scalar().filter(|text| source.get(node.span.start..node.span.end) == Some(*text))
 }
 
 /// The digits a text ends with, a point in them included.
@@ -98,6 +103,7 @@ mod tests {
         check("[1, 2, 5]", true, None);
         check("[0.5,1,2]", false, None);
         check("[-1,2]", true, None);
+        check("['−84',1, 2]", true, None);
         check("[]", true, None);
     }
 }
