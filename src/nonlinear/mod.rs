@@ -8,12 +8,14 @@ mod ode;
 mod realization;
 mod run;
 mod signal;
+mod simulate;
 mod thinning;
 
-pub use chain::{Block, Chain, ChainError, simulate, without_nonlinearities};
+pub use chain::{Block, Chain, ChainError, without_nonlinearities};
 pub use fixed_step::simulate_fixed_step;
 pub use nonlinearity::Nonlinearity;
 pub use ode::{OdeError, Trajectory, integrate};
 pub use run::Run;
 pub use signal::Signal;
+pub use simulate::simulate;
 pub(crate) use thinning::Thinning;
