@@ -1,0 +1,102 @@
+//! The program marks `submissions/` as a careful teacher does.
+
+use crate::teacher_marks::{self, Given, Mark};
+use polemark::grading::{self, ItemScore};
+use polemark::lab::{self, LabDefinition, Points};
+use polemark::reference::Reference;
+use polemark::submission::{self, Folder};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
+use std::fs;
+use std::path::PathBuf;
+
+fn folder() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("submissions")
+}
+
+fn lab() -> LabDefinition {
+    lab::load(lab::DEFAULT).expect("the embedded lab is right")
+}
+
+/// Marks one file, as `grade` does.
+fn marked(lab: &LabDefinition, reference: &Reference, file: &str) -> BTreeMap<String, ItemScore> {
+    let name = format!("{file}.yaml");
+    let bytes = fs::read(folder().join(&name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let submission = submission::read(file, &name, &bytes, &lab.sheet, &Folder(folder()));
+    let scorecard = grading::grade(lab, reference, &submission, None);
+    scorecard
+        .questions
+        .into_iter()
+        .flat_map(|question| question.items)
+        .map(|item| (item.id.clone(), item))
+        .collect()
+}
+
+fn agrees(item: &ItemScore, given: &Given) -> bool {
+    item.earned == given.points
+        && given.provisional.is_none_or(|provisional| item.provisional == provisional)
+        && given.verdict.is_none_or(|verdict| item.verdict == verdict)
+}
+
+#[test]
+fn the_program_marks_as_the_teacher_does() {
+    let lab = lab();
+    let reference = Reference::compute(&lab).expect("the embedded lab has a reference");
+    let mut report = String::new();
+    let mut disagreements = 0;
+    for sheet in teacher_marks::read(&lab) {
+        let items = marked(&lab, &reference, &sheet.file);
+        for (id, Mark { given, program }) in &sheet.marks {
+            let item = items.get(id).unwrap_or_else(|| panic!("{}: `{id}` was not marked", sheet.file));
+            if agrees(item, program.as_ref().unwrap_or(given)) {
+                continue;
+            }
+            disagreements += 1;
+            let known = match program {
+                Some(_) if agrees(item, given) => {
+                    " (they agree now: delete the `program` line below it)".to_owned()
+                }
+                Some(known) => format!(" (of the program {known} was known)"),
+                None => String::new(),
+            };
+            writeln!(
+                report,
+                "{} {id}\n  teacher {given}{known}: {}\n  program {}{} {:?} {}: {}\n    found: {}",
+                sheet.file,
+                given.reason,
+                item.earned,
+                if item.provisional { "?" } else { "" },
+                item.verdict,
+                item.code,
+                item.evidence.reason,
+                item.evidence.found,
+            )
+            .unwrap();
+        }
+    }
+    assert!(disagreements == 0, "{disagreements} marks differ\n{report}");
+}
+
+#[test]
+fn the_table_covers_every_file_and_criterion() {
+    let lab = lab();
+    let criteria: usize = lab.questions.iter().map(|question| question.criteria.len()).sum();
+    let mut in_table = BTreeSet::new();
+    for sheet in teacher_marks::read(&lab) {
+        assert_eq!(sheet.marks.len(), criteria, "{}: criteria", sheet.file);
+        let sum: Points = sheet.marks.values().map(|mark| mark.given.points).sum();
+        assert_eq!(sum, sheet.total, "{}: sum of its marks, and its heading", sheet.file);
+        for (id, mark) in &sheet.marks {
+            let earns = mark.given.points > Points::ZERO;
+            assert!(earns || !mark.given.reason.is_empty(), "{}: `{id}` has no reason", sheet.file);
+        }
+        assert!(in_table.insert(sheet.file.clone()), "{} stands twice in the table", sheet.file);
+    }
+    let in_folder: BTreeSet<String> = fs::read_dir(folder())
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "yaml"))
+        .map(|path| path.file_stem().unwrap().to_string_lossy().into_owned())
+        .collect();
+    assert_eq!(in_table, in_folder, "files in the table, and files in submissions/");
+}
