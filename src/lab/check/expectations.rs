@@ -26,15 +26,13 @@ const OF_A_RESPONSE: &[&str] = &[
     "slowest_time_constant_s",
     "settling_time_2_percent_s",
     "settling_time_5_percent_s",
-    "overshoot_percent",
-    "rise_time_10_90_s",
-    "rise_time_0_100_s",
+    "horizon_s",
 ];
 
-const OF_A_COMPARISON: &[&str] =
-    &["pushes", "end_linear", "end_nonlinear", "parting_push", "parting_amplitude"];
+const OF_A_COMPARISON: &[&str] = &["end_linear", "end_nonlinear", "parting_push", "parting_amplitude"];
 
-const OF_A_SIMULATION: &[&str] = &["peak_with", "peak_without", "switch_times", "end_with", "end_without"];
+const OF_A_SIMULATION: &[&str] =
+    &["peak_with", "peak_without", "switch_times", "end_with", "end_without", "end_time_s"];
 
 /// Agreement demanded when none is stated.
 const RELATIVE: f64 = 1e-9;
@@ -86,7 +84,8 @@ impl Checker<'_> {
         let known: Vec<String> = if names.simulations.contains(&subject) {
             OF_A_SIMULATION.iter().map(|&s| s.to_owned()).collect()
         } else {
-            linear().chain(OF_A_COMPARISON.iter().map(|s| format!("comparison.{s}"))).collect()
+            let comparison = OF_A_COMPARISON.iter().map(|s| format!("comparison.{s}"));
+            linear().chain(comparison).chain(["equilibrium".to_owned()]).collect()
         };
         let (end, known) = match alternative(rest) {
             Some(end) if !names.simulations.contains(&subject) => (end, linear().collect()),
