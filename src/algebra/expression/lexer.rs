@@ -247,7 +247,8 @@ impl Lexer<'_> {
 
     /// What of LaTeX people paste into a formula.
     fn command(&mut self, start: usize) -> Result<(), ExpressionError> {
-        self.at += 1;
+        // The backslash, or one of its wider look-alikes.
+        self.at += self.text[self.at..].chars().next().map_or(0, char::len_utf8);
         let length = self.text[self.at..].bytes().take_while(u8::is_ascii_alphabetic).count();
         let command = self.text[self.at..self.at + length].to_owned();
         self.at += length;

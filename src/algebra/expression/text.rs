@@ -203,4 +203,14 @@ mod tests {
             let _ = Expression::parse_equation(&text);
         }
     }
+
+    /// U+FE68 and U+FF3C are backslashes of three bytes.
+    #[test]
+    fn wide_backslashes_are_passed_whole() {
+        for text in ["\u{fe68}", "s\u{fe68}x", "2\u{ff3c}s"] {
+            assert!(Expression::parse_typed(text).is_err(), "{text}");
+        }
+        let fraction = Expression::parse_typed("\u{fe68}frac{1}{s}").map(|tree| tree.to_string());
+        assert_eq!(fraction.as_deref(), Ok("1/s"));
+    }
 }
