@@ -209,9 +209,11 @@ fn picture(figure: &Figure, prompt: &str) -> String {
     )
 }
 
-/// What is left of markup without its tags.
+/// What is left of a formula's markup without its tags and invisible operators.
 fn visible(markup: &str) -> String {
-    markup.split('<').map(|part| part.split_once('>').map_or(part, |(_, text)| text)).collect()
+    let text: String =
+        markup.split('<').map(|part| part.split_once('>').map_or(part, |(_, text)| text)).collect();
+    text.replace(|c| matches!(c, '\u{2061}'..='\u{2064}'), "")
 }
 
 fn typed(source: &str) -> String {

@@ -1,5 +1,14 @@
-/// Writes `text` as HTML or XML character data, fit for quoted attributes too: markup escaped, control characters (but line
-/// ends and tabs) dropped.
+/// Whether a character may stand in a page: no control characters but line ends and tabs, none that turn the direction of what
+/// follows, none that XML forbids.
+pub fn is_harmless(c: char) -> bool {
+    match c {
+        '\n' | '\r' | '\t' => true,
+        '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{fffe}' | '\u{ffff}' => false,
+        c => !c.is_control(),
+    }
+}
+
+/// Writes `text` as HTML or XML character data, fit for quoted attributes too: markup escaped, what is not harmless dropped.
 pub fn escape(out: &mut String, text: &str) {
     for c in text.chars() {
         match c {
@@ -8,9 +17,8 @@ pub fn escape(out: &mut String, text: &str) {
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
             '\'' => out.push_str("&#39;"),
-            '\n' | '\t' => out.push(c),
-            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => {}
-            c => out.push(c),
+            c if is_harmless(c) => out.push(c),
+            _ => {}
         }
     }
 }

@@ -15,6 +15,8 @@ mod pictures;
 pub mod prose;
 mod student;
 pub mod svg;
+#[cfg(test)]
+mod tests;
 mod view;
 
 pub use anchor::{item_anchor, question_anchor};

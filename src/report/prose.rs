@@ -3,7 +3,7 @@
 //! Two walls: raw HTML, odd links and pictures are taken out of the Markdown events, and what is written from them is cleaned
 //! against a list of allowed elements. Footnotes are not read, since their anchors would be the student's own ids.
 
-use super::escape::escape;
+use super::escape::{escape, is_harmless};
 use crate::grading::{PhraseMatch, Stance};
 use ammonia::{Builder, UrlRelative};
 use pulldown_cmark::{Event, LinkType, Options, Parser, Tag, TagEnd};
@@ -20,6 +20,8 @@ const MOST_BRACES: usize = 50;
 /// `markdown` as safe HTML. What is too long is cut, what nests too deep is shown as it was typed.
 pub fn to_html(markdown: &str) -> String {
     let (text, left_out) = cut(markdown);
+    let clean: String = text.chars().filter(|c| is_harmless(*c)).collect();
+    let text = clean.as_str();
     let mut html = match events(text) {
         Some(events) => {
             let mut out = String::with_capacity(2 * text.len());
@@ -76,7 +78,7 @@ pub fn quotes(prose: &str, phrases: &[PhraseMatch]) -> Vec<Quote> {
             } else {
                 after[..to].rfind(char::is_whitespace).unwrap_or(to)
             };
-            let one_line = |t: &str| t.replace(|c: char| c.is_control(), " ");
+            let one_line = |t: &str| t.replace(|c: char| c.is_control() || !is_harmless(c), " ");
             let lead = if from > 0 { "…" } else { "" };
             let trail = if whole { "" } else { "…" };
             Some(Quote {
@@ -135,7 +137,7 @@ fn events(text: &str) -> Option<Vec<Event<'_>>> {
                 Event::End(TagEnd::Paragraph)
             }
             Event::Start(Tag::Link { link_type, dest_url, .. }) => {
-                let kept = matches!(link_type, LinkType::Email) || is_harmless(&dest_url);
+                let kept = matches!(link_type, LinkType::Email) || is_open_link(&dest_url);
                 links.push(kept);
                 if !kept {
                     continue;
@@ -160,7 +162,7 @@ fn events(text: &str) -> Option<Vec<Event<'_>>> {
     Some(out)
 }
 
-fn is_harmless(url: &str) -> bool {
+fn is_open_link(url: &str) -> bool {
     let lower = url.trim_start().to_ascii_lowercase();
     ["http://", "https://", "mailto:"].iter().any(|scheme| lower.starts_with(scheme))
 }

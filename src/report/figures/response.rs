@@ -94,7 +94,7 @@ impl PreparedResponse {
             figure.series.push(Series { name, look: Look::Student, points: own });
         }
         for series in data {
-            figure.caption += &leaving_words("Your data", &series.points, range);
+            figure.caption += &leaving_words("The curve of your data", &series.points, range);
             figure.series.push(series);
         }
         figure.caption = figure.caption.trim().to_owned();

@@ -65,7 +65,7 @@ impl PreparedSimulation {
         (figure.y.from, figure.y.to) = frame(&both, &others);
         let range = (figure.y.from, figure.y.to);
         for curve in curves {
-            figure.caption += &leaving_words("Your data", &curve.points, range);
+            figure.caption += &leaving_words("The curve of your data", &curve.points, range);
             // The green of a fourth curve is taken by the one without nonlinearity.
             let look = if curve.look == Look::Other { Look::Student } else { curve.look };
             figure.series.push(Series { look, ..curve });
