@@ -63,7 +63,11 @@ pub(super) fn judge(
         phrases: phrases.clone(),
     };
     if !against.is_empty() {
-        let reason = format!("It says {}, which is not so.", quotations(&against, prose));
+        let reason = format!(
+            "It says {}. What should not be said: {}.",
+            quotations(&against, prose),
+            distinct(against.iter().map(|found| found.concept.as_str())).join("; ")
+        );
         return provisional(Mark::wrong("concepts.contradicted", evidence(reason)));
     }
 
@@ -83,12 +87,12 @@ pub(super) fn judge(
 
     let mut reason = Vec::new();
     for (titles, words) in [
-        (&claimed, "It says that"),
-        (&both, "It both says and denies that"),
-        (&denied, "It denies that"),
-        (&titles(State::Missing), "We did not find that"),
+        (&claimed, "Said:"),
+        (&both, "Both said and denied:"),
+        (&denied, "Denied:"),
+        (&titles(State::Missing), "Not found:"),
     ] {
-        if !titles.is_empty() && !(words.starts_with("We") && halves >= 2 * needed) {
+        if !titles.is_empty() && !(words.starts_with("Not") && halves >= 2 * needed) {
             reason.push(format!("{words} {}.", titles.join("; ")));
         }
     }
@@ -167,6 +171,16 @@ fn matches(concept: &Concept, sentences: &[Vec<Token>]) -> Vec<Match> {
         !covered
     });
     all
+}
+
+fn distinct<'t>(titles: impl Iterator<Item = &'t str>) -> Vec<&'t str> {
+    let mut kept: Vec<&str> = Vec::new();
+    for title in titles {
+        if !kept.contains(&title) {
+            kept.push(title);
+        }
+    }
+    kept
 }
 
 fn found_in_words(phrases: &[PhraseMatch], prose: &str) -> String {

@@ -1,5 +1,5 @@
 use super::accepted::{accepted, operating_point};
-use super::mark::Mark;
+use super::mark::{Mark, beginning};
 use super::plot::{Demands, Target};
 use super::{
     HandMarks, ItemScore, QuestionScore, Scorecard, Tally, Verdict, concepts, cover, nonlinearity, plot,
@@ -155,7 +155,7 @@ impl<'a> Grader<'a> {
             Field::Unreadable(answer, why) => Mark::unreadable(expected, answer, why),
             Field::Value(answer, _) => Mark::unmarked(
                 expected,
-                answer.text.clone(),
+                beginning(&answer.text),
                 "This answer is of another kind than the one that is judged here; a person will mark it.",
             ),
         }
@@ -313,5 +313,179 @@ fn unreadable_file(expected: String, submission: &Submission) -> Mark {
         code: "unreadable",
         evidence: super::Evidence { reason, ..mark.evidence },
         ..mark
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grading::Override;
+    use crate::lab::{self, CoverSource, Points};
+    use crate::submission::{NoFiles, read};
+    use std::sync::OnceLock;
+
+    fn lab() -> &'static (LabDefinition, Reference) {
+        static LAB: OnceLock<(LabDefinition, Reference)> = OnceLock::new();
+        LAB.get_or_init(|| {
+            let lab = lab::load(lab::DEFAULT).unwrap();
+            let reference = Reference::compute(&lab).unwrap();
+            (lab, reference)
+        })
+    }
+
+    fn submission(answers: &str) -> Submission {
+        let text = format!("lab: ee361-lab3\nstudent: {{id: EE-001, name: A. Student}}\nanswers:\n{answers}");
+        read("answers", "answers.yaml", text.as_bytes(), &lab().0.sheet, &NoFiles)
+    }
+
+    fn card(answers: &str, hand: Option<&HandMarks>) -> Scorecard {
+        grade(&lab().0, &lab().1, &submission(answers), hand)
+    }
+
+    fn item<'a>(card: &'a Scorecard, id: &str) -> &'a ItemScore {
+        card.questions.iter().flat_map(|question| &question.items).find(|item| item.id == id).unwrap()
+    }
+
+    #[track_caller]
+    fn check(rows: &[(&str, &str, i64, &str)]) {
+        for (answers, id, points, code) in rows {
+            let card = card(answers, None);
+            let item = item(&card, id);
+            assert_eq!(
+                (item.earned, item.code),
+                (Points(*points), *code),
+                "{answers}: {id}: {}",
+                item.evidence.reason
+            );
+        }
+    }
+
+    #[test]
+    fn answers_meet_the_computed_reference() {
+        let seed = "  hanging.transfer_function: 0.06s / (-0.0132s^3 - 0.0024s^2 + 0.4166s + 0.0588)\n";
+        let up = "  upright.transfer_function: 0.06s / (0.0132s^3 + 0.0024s^2 - 0.4166s - 0.0588)\n";
+        check(&[
+            // answers, criterion, points, code
+            (seed, "hanging.transfer_function.structure", 100, "right"),
+            (seed, "hanging.transfer_function.numerator", 200, "right"),
+            (seed, "hanging.transfer_function.denominator", 0, "denominator.sign"),
+            (up, "upright.transfer_function.denominator", 100, "denominator.one_slip"),
+            ("  hanging.response.poles: [-0.143, -0.0195 ± 5.59j]\n", "hanging.response.poles", 50, "right"),
+            (
+                "  hanging.response.poles: [-0.143, -0.0195 ± 5.59j, 0]\n",
+                "hanging.response.poles",
+                0,
+                "poles.extra",
+            ),
+            ("  upright.response.poles: [5.57, -0.143, -5.61]\n", "upright.response.poles", 50, "right"),
+            ("  upright.response.final_value: unbounded\n", "upright.response.final_value", 50, "right"),
+            (
+                "  upright.response.final_value: 0\n",
+                "upright.response.final_value",
+                0,
+                "value.unbounded_given_number",
+            ),
+            ("  hanging.response.shape: damped sinusoid\n", "hanging.response.shape", 100, "right"),
+            (
+                "  hanging.response.stability: marginally stable\n",
+                "hanging.response.stability",
+                0,
+                "stability.marginal",
+            ),
+            ("  hanging.response.stability: perhaps\n", "hanging.response.stability", 0, "unreadable"),
+            ("  hanging.response.data: [1, 2]\n", "hanging.response.plot", 0, "unreadable"),
+            ("  battery.nonlinearity: deadband\n", "battery.nonlinearity.class", 100, "right"),
+            ("  expect_hanging: It swings.\n", "expect_hanging.oscillates", 100, "concepts.found"),
+            ("  expect_hanging: ''\n", "expect_hanging.oscillates", 0, "blank"),
+        ]);
+    }
+
+    #[test]
+    fn letters_and_coefficients_are_the_same() {
+        let forms = [
+            "-0.06s / (0.0132s^3 + 0.0024s^2 + 0.412s + 0.0589)",
+            "{num: [-0.06, 0], den: [0.0132, 0.0024, 0.412, 0.0589]}",
+            "-m*l*s / (((M + m)*(I + m*l^2) - (m*l)^2)*s^3 + b*(I + m*l^2)*s^2 + (M + m)*m*g*l*s + b*m*g*l)",
+        ];
+        for form in forms {
+            let card = card(&format!("  hanging.transfer_function: {form}\n"), None);
+            let question =
+                card.questions.iter().find(|question| question.id == "hanging.transfer_function").unwrap();
+            assert_eq!(question.tally.earned, Points(500), "{form}: {:#?}", question.items);
+        }
+    }
+
+    #[test]
+    fn the_model_answer_earns_everything_and_a_blank_nothing() {
+        let (lab, reference) = lab();
+        let full = grade(lab, reference, &lab.model_answer, None);
+        assert_eq!(full.total.earned, full.total.possible);
+        let blank = card("  {}\n", None);
+        assert_eq!(blank.total.earned, Points::ZERO);
+        for item in blank.questions.iter().flat_map(|question| &question.items) {
+            assert_eq!((item.code, item.provisional, item.position), ("blank", false, None), "{}", item.id);
+            assert!(!item.evidence.expected.is_empty(), "{}", item.id);
+        }
+    }
+
+    #[test]
+    fn a_file_that_is_not_yaml_is_unreadable_throughout() {
+        let (lab, reference) = lab();
+        let broken = read("x", "x.yaml", b"answers: [", &lab.sheet, &NoFiles);
+        let card = grade(lab, reference, &broken, None);
+        for item in card.questions.iter().flat_map(|question| &question.items) {
+            assert_eq!((item.verdict, item.earned), (Verdict::Unreadable, Points::ZERO), "{}", item.id);
+        }
+    }
+
+    #[test]
+    fn without_a_reference_a_person_decides() {
+        let (lab, _) = lab();
+        let nothing = Reference { lab: lab.id.clone(), models: Vec::new(), simulations: Vec::new() };
+        let card = grade(lab, &nothing, &lab.model_answer, None);
+        for id in ["hanging.transfer_function.numerator", "hanging.response.poles", "saturation.plot"] {
+            assert_eq!((item(&card, id).code, item(&card, id).provisional), ("unmarked", true), "{id}");
+        }
+        assert!(card.cover.iter().all(|(_, _, earned)| earned.is_none()), "{:?}", card.cover);
+    }
+
+    #[test]
+    fn a_person_has_the_last_word_and_fills_the_sheet() {
+        let (lab, _) = lab();
+        let given = |points| Override { points: Points(points), reason: "seen in the lab".into() };
+        let hand = HandMarks {
+            cover: lab
+                .cover
+                .rows
+                .iter()
+                .filter(|row| row.from == CoverSource::ByHand)
+                .map(|row| (row.id.clone(), row.points))
+                .collect(),
+            observed: lab.observed.iter().map(|row| (row.id.clone(), row.points)).collect(),
+            items: [
+                ("expect_hanging.settles".to_owned(), given(75)),
+                ("saturation.plot".to_owned(), given(9_999)),
+            ]
+            .into(),
+        };
+        let card = card("  expect_hanging: It swings.\n", Some(&hand));
+        let settles = item(&card, "expect_hanging.settles");
+        assert_eq!(
+            (settles.earned, settles.verdict, settles.provisional),
+            (Points(75), Verdict::Partly, false)
+        );
+        assert_eq!(settles.override_reason.as_deref(), Some("seen in the lab"));
+        // More than there is to get is not given.
+        assert_eq!(item(&card, "saturation.plot").earned, Points::ZERO);
+        assert_eq!((card.total.earned, card.total.provisional), (Points(175), Points(100)));
+        // 65 · (1.75 + 35) / 80 = 29.859…, and the viva.
+        assert_eq!(card.cover_total, Some(Points(2986 + 3500)));
+    }
+
+    #[test]
+    fn a_mark_says_where_its_answer_stands() {
+        let card = card("  battery.nonlinearity: dead zone\n", None);
+        let position = item(&card, "battery.nonlinearity.class").position.unwrap();
+        assert_eq!(position.line, 4);
     }
 }

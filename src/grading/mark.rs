@@ -37,7 +37,7 @@ impl Mark {
         if let Some(help) = &why.finding.help {
             reason = format!("{reason} {help}");
         }
-        let evidence = Evidence { expected, found: answer.text.clone(), reason, ..Evidence::default() };
+        let evidence = Evidence { expected, found: beginning(&answer.text), reason, ..Evidence::default() };
         Self {
             verdict: Verdict::Unreadable,
             code: "unreadable",
@@ -57,6 +57,15 @@ impl Mark {
             evidence,
             provisional: true,
         }
+    }
+}
+
+/// As much of a student's text as evidence needs.
+pub(super) fn beginning(text: &str) -> String {
+    const LETTERS: usize = 200;
+    match text.char_indices().nth(LETTERS) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
     }
 }
 

@@ -1,6 +1,6 @@
 use super::Evidence;
 use super::closeness::percent;
-use super::mark::Mark;
+use super::mark::{Mark, beginning};
 use crate::algebra::{significant, to_f64};
 use crate::lab::{Points, Tolerance};
 use crate::submission::{Figure, Series};
@@ -132,7 +132,8 @@ fn with_figure_or(
 
 /// Earned until a person has looked at it.
 pub(super) fn figure_alone(points: Points, expected: String, figure: &Figure, why: &str) -> Mark {
-    let found = format!("the figure {} ({} × {} pixels)", figure.file_name, figure.width, figure.height);
+    let found =
+        format!("the figure {} ({} × {} pixels)", beginning(&figure.file_name), figure.width, figure.height);
     let reason = format!(
         "{why} polemark does not look at pictures: the points count until a person has looked at it."
     );
@@ -141,12 +142,12 @@ pub(super) fn figure_alone(points: Points, expected: String, figure: &Figure, wh
 }
 
 fn said(series: &Series) -> String {
-    format!("{} rows of data ({})", series.rows.len(), series.file_name)
+    format!("{} rows of data ({})", series.rows.len(), beginning(&series.file_name))
 }
 
 fn column_name(series: &Series, column: usize) -> String {
     match series.headers.get(column).map(|header| header.trim()) {
-        Some(header) if !header.is_empty() => format!("{} ({header})", column + 1),
+        Some(header) if !header.is_empty() => format!("{} ({})", column + 1, beginning(header)),
         _ => (column + 1).to_string(),
     }
 }

@@ -115,9 +115,13 @@ fn word_end(text: &str, start: usize) -> usize {
 
 fn push_word(found: &mut Vec<Token>, text: &str, span: Span, gap: Gap) {
     // Letters copied from a typeset formula (𝑠𝑖𝑛) and ligatures (ﬁ) are the letters they show.
-    let plain: String = text[span.start..span.end].nfkc().collect::<String>().to_lowercase();
-    let plain: String =
-        plain.chars().map(|letter| if is_apostrophe(letter) { '\'' } else { letter }).collect();
+    let raw = &text[span.start..span.end];
+    let plain = if raw.is_ascii() {
+        raw.to_ascii_lowercase()
+    } else {
+        let shown = raw.nfkc().collect::<String>().to_lowercase();
+        shown.chars().map(|letter| if is_apostrophe(letter) { '\'' } else { letter }).collect()
+    };
     let negated = match plain.strip_suffix("n't") {
         Some("ca") => Some("can".to_owned()),
         Some("wo") => Some("will".to_owned()),

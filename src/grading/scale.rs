@@ -39,7 +39,7 @@ pub(super) struct Scaled {
     pub factor: Rational,
     /// How many coefficients agree on it.
     pub agreeing: usize,
-    /// How many of them agree on it to the last digit.
+    /// How many have its size to the last digit, whatever their sign: tells which of several references was meant.
     pub identical: usize,
     /// Whether the factor means anything: two coefficients agree on it, or the denominator's only one sets it.
     pub supported: bool,
@@ -171,13 +171,15 @@ fn scaled(
         intervals.iter().zip(agree).filter(|(_, yes)| **yes).filter_map(|(one, _)| one.as_ref()).collect();
     // Shown with the ratio that most of them have to the last digit, else the denominator's first, else any.
     let mut factor = start;
-    let mut identical = 0;
+    let mut most = 0;
     for one in agreeing.iter().rev() {
         let count = agreeing.iter().filter(|other| other.ratio == one.ratio).count();
-        if count >= identical && agreeing.iter().all(|other| other.contains(&one.ratio)) {
-            (factor, identical) = (one.ratio.clone(), count);
+        if count >= most && agreeing.iter().all(|other| other.contains(&one.ratio)) {
+            (factor, most) = (one.ratio.clone(), count);
         }
     }
+    let size = magnitude(&factor);
+    let identical = intervals.iter().flatten().filter(|one| magnitude(&one.ratio) == size).count();
     let coefficients = pairs
         .iter()
         .zip(agree)

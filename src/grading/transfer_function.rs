@@ -317,19 +317,17 @@ impl Reading<'_> {
         let (written, expected) = (number(&coefficient.written), number(&should));
         match coefficient.fit {
             Fit::Right => String::new(),
-            Fit::Extra => format!("The term with {place} ({written}) should not be there."),
-            Fit::Missing => format!("The term with {place} is missing: it should be {expected}."),
+            Fit::Extra => format!("The {place} ({written}) should not be there."),
+            Fit::Missing => format!("The {place} is missing: it should be {expected}."),
             Fit::Sign => {
                 let off = magnitude(&(&coefficient.written + &should)) > magnitude(&(&should * tolerance));
                 let digits = if off { ", and its digits are off" } else { "" };
-                format!(
-                    "The coefficient of {place} has the wrong sign{digits}: {written} was written, {expected} expected."
-                )
+                format!("The {place} has the wrong sign{digits}: {written} was written, {expected} expected.")
             }
             Fit::Value => {
                 let by = (&coefficient.written - &should) / &should;
                 format!(
-                    "The coefficient of {place} is {written} where {expected} was expected, off by {}.",
+                    "The {place} is {written} where {expected} was expected, off by {}.",
                     percent(&magnitude(&by))
                 )
             }
@@ -378,9 +376,9 @@ fn number(value: &Rational) -> String {
 
 fn place(power: usize) -> String {
     match power {
-        0 => "s^0 (the constant)".to_owned(),
-        1 => "s".to_owned(),
-        power => format!("s^{power}"),
+        0 => "constant term".to_owned(),
+        1 => "coefficient of s".to_owned(),
+        power => format!("coefficient of s^{power}"),
     }
 }
 

@@ -49,7 +49,13 @@ pub(super) fn expected(
     let Some(main) = accepted.first() else { return String::new() };
     match truth(main.what, feature) {
         Truth::Number(value) => {
-            format!("{}, {}.{}", shown(value, tolerance), in_words(tolerance), also(accepted))
+            let own = shown(value, tolerance);
+            let same = |one: &Accepted<'_, Features>| match truth(one.what, feature) {
+                Truth::Number(value) => shown(value, tolerance) == own,
+                _ => false,
+            };
+            let others = if accepted.iter().all(same) { String::new() } else { also(accepted) };
+            format!("{own}, {}.{others}", in_words(tolerance))
         }
         Truth::PlusInfinity => "It grows without bound, to +∞.".to_owned(),
         Truth::MinusInfinity => "It grows without bound, to -∞.".to_owned(),
