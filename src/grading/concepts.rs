@@ -4,7 +4,6 @@ use super::prose::{Token, sentences};
 use super::{Evidence, PhraseMatch, Stance, Verdict};
 use crate::algebra::Rational;
 use crate::lab::{Concept, Points};
-use crate::source::Span;
 
 /// More words than these are not shown.
 const MOST_SHOWN: usize = 60;
@@ -85,19 +84,21 @@ pub(super) fn judge(
     let halves = 2 * claimed.len() + both.len();
     let part = Rational::from(halves as u64) / Rational::from(2 * needed as u64);
 
-    let mut reason = Vec::new();
-    for (titles, words) in [
-        (&claimed, "Said:"),
-        (&both, "Both said and denied:"),
-        (&denied, "Denied:"),
-        (&titles(State::Missing), "Not found:"),
-    ] {
-        if !titles.is_empty() && !(words.starts_with("Not") && halves >= 2 * needed) {
-            reason.push(format!("{words} {}.", titles.join("; ")));
-        }
-    }
+    let enough = halves >= 2 * needed;
+    // What is not there is no news once there is enough.
+    let missing = if enough { Vec::new() } else { titles(State::Missing) };
+    let reason: Vec<String> = [
+        ("Said:", &claimed),
+        ("Both said and denied:", &both),
+        ("Denied:", &denied),
+        ("Not found:", &missing),
+    ]
+    .into_iter()
+    .filter(|(_, titles)| !titles.is_empty())
+    .map(|(words, titles)| format!("{words} {}.", titles.join("; ")))
+    .collect();
     let evidence = evidence(reason.join(" "));
-    provisional(if halves >= 2 * needed {
+    provisional(if enough {
         Mark { code: "concepts.found", ..Mark::right(points, evidence) }
     } else if halves > 0 {
         let code = if both.is_empty() { "concepts.missing" } else { "concepts.both_ways" };

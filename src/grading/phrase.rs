@@ -267,7 +267,7 @@ fn stance(sentence: &[Token], places: &[usize]) -> Stance {
         (first..last).filter(|place| !places.contains(place) && denies_within(sentence, *place)).count();
     let before = denials_before(sentence, first);
     let after = usize::from(denied_after(sentence, last));
-    if (before + within + after) % 2 == 0 {
+    if (before + within + after).is_multiple_of(2) {
         return Stance::Claimed;
     }
     let extent = |place: usize| {

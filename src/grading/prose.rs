@@ -59,12 +59,12 @@ pub(super) fn words(text: &str) -> Vec<Token> {
     let mut at = 0;
     while let Some(letter) = text[at..].chars().next() {
         let next = at + letter.len_utf8();
-        if letter == '$' {
-            if let Some(end) = formula_end(text, at) {
-                found.push(Token { text: FORMULA.to_owned(), span: Span { start: at, end }, gap });
-                (gap, at) = (Gap::Space, end);
-                continue;
-            }
+        if letter == '$'
+            && let Some(end) = formula_end(text, at)
+        {
+            found.push(Token { text: FORMULA.to_owned(), span: Span { start: at, end }, gap });
+            (gap, at) = (Gap::Space, end);
+            continue;
         }
         if is_word(letter) {
             let end = word_end(text, at);
