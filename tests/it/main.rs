@@ -1,5 +1,6 @@
 //! Whole runs: the program and the library over files as people hand them in.
 
+mod claims;
 mod class_marks;
 mod cli;
 mod teacher_marks;
