@@ -44,7 +44,8 @@ fn the_phrases_hear_what_a_teacher_hears() {
         let file = format!("answers:\n  {field}: |\n    {sentence}\n");
         let submission = submission::read("claim", "claim.yaml", file.as_bytes(), &lab.sheet, &NoFiles);
         let scorecard = grading::grade(&lab, &reference, &submission, None);
-        let item = scorecard.questions.iter().flat_map(|question| &question.items).find(|i| i.id == criterion);
+        let item =
+            scorecard.questions.iter().flat_map(|question| &question.items).find(|i| i.id == criterion);
         let heard = item.expect("every criterion is marked").earned > Points::ZERO;
         if (heard == claimed) == known {
             let teacher = if claimed { "+" } else { "-" };
