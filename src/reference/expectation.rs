@@ -44,12 +44,13 @@ fn disagreement(reference: &Reference, expectation: &Expectation) -> Option<Disa
     ))
 }
 
-/// Within `relative` of the stated value; an expected zero must be met to 1e-12.
+/// Within `relative` of the stated value; a stated zero must be met to 1e-12.
 fn agrees(computed: &ExpectedValue, stated: &ExpectedValue, relative: f64) -> bool {
     use ExpectedValue::*;
-    let near = |a: f64, b: f64, scale: f64| (a - b).abs() <= (relative * scale).max(1e-12 * scale.min(1.0));
+    let near =
+        |a: f64, b: f64, scale: f64| (a - b).abs() <= if scale == 0.0 { 1e-12 } else { relative * scale };
     match (computed, stated) {
-        (Number(a), Number(b)) => near(*a, *b, if *b == 0.0 { 1e-12 } else { b.abs() }) || a == b,
+        (Number(a), Number(b)) => near(*a, *b, b.abs()),
         (Complex(a, b), Complex(c, d)) => {
             let scale = c.hypot(*d);
             near(*a, *c, scale) && near(*b, *d, scale)

@@ -3,5 +3,6 @@
 mod claims;
 mod class_marks;
 mod cli;
+mod readme;
 mod teacher_marks;
 mod verify;
