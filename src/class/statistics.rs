@@ -1,9 +1,9 @@
 use super::marked::Marked;
 use super::run::Outcome;
-use crate::grading::Verdict;
+use crate::grading::{ItemScore, Verdict};
 use crate::lab::{LabDefinition, Points};
 use crate::report::{ClassRow, ClassSummary, QuestionMean, ReviewEntry, item_anchor};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 /// What the class page and the summary need, gathered one submission at a time.
 pub struct Statistics {
@@ -39,10 +39,9 @@ impl Statistics {
         self.outcome.possible = card.total.possible.as_f64();
         self.outcome.unreadable += usize::from(!submission.readable);
         self.outcome.failed += usize::from(marked.failed);
-        if let Some(entry) = review_entry(marked) {
-            self.outcome.to_review += 1;
-            self.review.push(entry);
-        }
+        let waiting = self.review.len();
+        self.review.extend(review_entries(marked));
+        self.outcome.to_review += usize::from(self.review.len() > waiting);
         self.rows.push(ClassRow {
             students: submission.students.clone(),
             file: submission.source.name.clone(),
@@ -86,37 +85,32 @@ impl Statistics {
     }
 }
 
-/// One line a submission: how many of its marks wait for a person, of which kinds, and where the first stands.
-fn review_entry(marked: &Marked) -> Option<ReviewEntry> {
-    let first = marked.items_to_review().next()?;
-    let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
-    for item in marked.items_to_review() {
-        let kind = match (item.verdict, item.code.split('.').next()) {
-            (Verdict::Unmarked, _) => "not marked",
-            (_, Some("concepts")) => "prose",
-            (_, Some("plot")) => "picture",
-            _ => "other",
-        };
-        *kinds.entry(kind).or_default() += 1;
-    }
-    let kinds: Vec<String> = kinds.iter().map(|(kind, count)| format!("{kind}: {count}")).collect();
+/// One entry a criterion that waits for a person.
+fn review_entries(marked: &Marked) -> impl Iterator<Item = ReviewEntry> {
     let names: Vec<&str> = marked
         .submission
         .students
         .iter()
         .map(|s| if s.name.is_empty() { s.id.as_str() } else { s.name.as_str() })
         .collect();
-    let others = marked.items_to_review().count() - 1;
-    Some(ReviewEntry {
-        student: names.join(", "),
-        item: first.id.clone(),
-        title: match others {
-            0 => first.title.clone(),
-            n => format!("{} and {n} more", first.title),
-        },
-        link: format!("{}#{}", marked.report, item_anchor(&first.id)),
-        why: kinds.join(" · "),
-        earned: marked.items_to_review().map(|item| item.earned).sum(),
-        possible: marked.items_to_review().map(|item| item.possible).sum(),
+    let student = names.join(", ");
+    marked.items_to_review().map(move |item| ReviewEntry {
+        student: student.clone(),
+        item: item.id.clone(),
+        title: item.title.clone(),
+        link: format!("{}#{}", marked.report, item_anchor(&item.id)),
+        why: why(item).to_owned(),
+        earned: item.earned,
+        possible: item.possible,
     })
+}
+
+/// Why a person should look, by the kind of answer.
+fn why(item: &ItemScore) -> &'static str {
+    match (item.verdict, item.code.split('.').next()) {
+        (Verdict::Unmarked, _) => "polemark could not judge it",
+        (_, Some("concepts")) => "prose is judged by its words only",
+        (_, Some("plot")) => "a picture cannot be read",
+        _ => "to be confirmed",
+    }
 }
