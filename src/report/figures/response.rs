@@ -4,6 +4,7 @@ use crate::reference::{OperatingPointReference, ResponseReference};
 use crate::report::figure::{Axis, Figure, Look, Series};
 use crate::report::numbers::{letter, number, quantity};
 use crate::submission;
+use std::f64::consts::TAU;
 
 /// The views of one response that do not depend on a student: how far they go, and the reference curve in each.
 #[derive(Clone, Debug)]
@@ -19,6 +20,8 @@ pub struct PreparedResponse {
 struct View {
     name: String,
     end_s: f64,
+    /// The periods are too dense to be told apart.
+    dense: bool,
     reference: Vec<(f64, f64)>,
 }
 
@@ -44,17 +47,23 @@ impl PreparedResponse {
             InputKind::Impulse => ("unit impulse", "impulse response"),
             InputKind::Step => ("unit step", "step response"),
         };
-        let whole =
-            View { name: String::new(), end_s: reference.horizon_s, reference: reference.samples.clone() };
+        let whole = View {
+            name: String::new(),
+            end_s: reference.horizon_s,
+            dense: false,
+            reference: reference.samples.clone(),
+        };
         let views = match reference.features.period_s {
             Some(period) if reference.horizon_s > MANY_PERIODS * period => {
                 let end_s = FIRST_PERIODS * period;
                 let first = View {
                     name: format!(", first {}", quantity(end_s, 2, "s")),
                     end_s,
+                    dense: false,
                     reference: reference.response.samples(end_s, TOLERANCE),
                 };
-                vec![first, View { name: ", whole decay".to_owned(), ..whole }]
+                let name = ", whole decay".to_owned();
+                vec![first, View { name, dense: true, ..whole }]
             }
             _ => vec![whole],
         };
@@ -75,7 +84,7 @@ impl PreparedResponse {
 
     fn figure(&self, view: &View, student: StudentCurves<'_>) -> Figure {
         let reach = view.reference.iter().map(|p| p.1.abs()).fold(0.0, f64::max);
-        let own = student.own.map(|r| sampled(r, view.end_s, reach)).unwrap_or_default();
+        let own = student.own.map(|r| sampled(r, view, reach)).unwrap_or_default();
         let data = student.data.map(|d| data_series(d, view.end_s)).unwrap_or_default();
         let mut others: Vec<&[(f64, f64)]> = vec![&own];
         others.extend(data.iter().map(|s| s.points.as_slice()));
@@ -105,17 +114,32 @@ impl PreparedResponse {
     }
 }
 
-/// The curve of a student's system as far as it matters: until `end_s`, or until it has left the picture for good measure.
-fn sampled(response: &Response, end_s: f64, reach: f64) -> Vec<(f64, f64)> {
+/// The curve of a student's system as far as it matters: to the end of the view, or well past where it leaves the picture.
+fn sampled(response: &Response, view: &View, reach: f64) -> Vec<(f64, f64)> {
     const STEPS: usize = 300;
+    let end_s = view.end_s;
     let far = 8.0 * if reach > 0.0 { reach } else { 1.0 };
     let instants = (1..=STEPS).map(|i| end_s * i as f64 / STEPS as f64);
     let end_s = instants.clone().find(|&t| !(response.at(t).abs() < far)).unwrap_or(end_s);
-    let mut points = response.samples(end_s, TOLERANCE);
+    let mut points = match even_steps(response, end_s).filter(|_| view.dense) {
+        Some(steps) => {
+            let instants = (0..=steps).map(|i| end_s * i as f64 / steps as f64);
+            instants.map(|t| (t, response.at(t))).collect()
+        }
+        None => response.samples(end_s, TOLERANCE),
+    };
     if let Some(bad) = points.iter().position(|(t, y)| !t.is_finite() || !y.is_finite()) {
         points.truncate(bad);
     }
     points
+}
+
+/// Even steps that show the height of every swing within half a percent; `None` when that would be too many.
+fn even_steps(response: &Response, end_s: f64) -> Option<usize> {
+    const A_PERIOD: f64 = 32.0;
+    let fastest = response.modes().iter().map(|mode| mode.im).fold(0.0, f64::max);
+    let steps = (A_PERIOD * end_s * fastest / TAU).max(400.0);
+    (steps <= 8_000.0).then_some(steps as usize)
 }
 
 /// What one reads off the response, in full sentences.
