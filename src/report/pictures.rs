@@ -18,9 +18,9 @@ use crate::submission::{AnswerValue, Series, Submission};
 
 /// A place for figures on the page.
 pub enum Picture {
-    PoleZero(PoleZeroPicture),
-    Response(ResponsePicture),
-    Simulation(SimulationPicture),
+    PoleZero(Box<PoleZeroPicture>),
+    Response(Box<ResponsePicture>),
+    Simulation(Box<SimulationPicture>),
     /// The same for everyone.
     Fixed(FigureView),
 }
@@ -74,7 +74,7 @@ pub fn of_question(
         let transfer_function_field = transfer_function_field(lab, &system);
         let (id, title) = (next_id(), format!("{}: poles and zeros", point.title));
         let shared = draw(&pole_zero(&title, &main.poles, &main.zeros, None), &id)?;
-        pictures.push(Picture::PoleZero(PoleZeroPicture {
+        pictures.push(Picture::PoleZero(Box::new(PoleZeroPicture {
             id,
             title,
             poles: main.poles.clone(),
@@ -82,12 +82,12 @@ pub fn of_question(
             transfer_function_field: transfer_function_field.clone(),
             poles_field: field_where(question, |c| matches!(c, Check::Poles { of, .. } if *of == system)),
             shared,
-        }));
+        })));
         for kind in kinds(question, &system) {
             let prepared = PreparedResponse::new(point, response_of(main, kind));
             let id = next_id();
             let shared = views(&prepared.figures(StudentCurves::default()), &id)?;
-            pictures.push(Picture::Response(ResponsePicture {
+            pictures.push(Picture::Response(Box::new(ResponsePicture {
                 id,
                 kind,
                 prepared,
@@ -97,7 +97,7 @@ pub fn of_question(
                     |curve| matches!(curve, Curve::Response { of, response } if *of == system && *response == kind),
                 ),
                 shared,
-            }));
+            })));
         }
         for (push, samples) in &point.comparison.runs {
             pictures.push(Picture::Fixed(draw(&comparison_figure(point, *push, samples), &next_id())?));
@@ -110,7 +110,7 @@ pub fn of_question(
         let shared = draw(&prepared.figure(None), &id)?;
         let data_field =
             data_field(question, |curve| matches!(curve, Curve::Simulation { id } if *id == definition.id));
-        pictures.push(Picture::Simulation(SimulationPicture { id, prepared, data_field, shared }));
+        pictures.push(Picture::Simulation(Box::new(SimulationPicture { id, prepared, data_field, shared })));
         pictures.push(Picture::Fixed(draw(&characteristic_figure(definition, simulated), &next_id())?));
     }
     Ok(pictures)

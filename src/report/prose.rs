@@ -4,11 +4,11 @@
 //! against a list of allowed elements. Footnotes are not read, since their anchors would be the student's own ids.
 
 use super::escape::{escape, is_harmless};
+use super::numbers::typeset;
 use crate::grading::{PhraseMatch, Stance};
 use ammonia::{Builder, UrlRelative};
 use pulldown_cmark::{Event, LinkType, Options, Parser, Tag, TagEnd};
 use pulldown_latex::config::{DisplayMode, RenderConfig};
-use std::collections::{HashMap, HashSet};
 use std::sync::LazyLock;
 
 const LONGEST_TEXT: usize = 20_000;
@@ -32,6 +32,23 @@ pub fn to_html(markdown: &str) -> String {
     };
     if left_out > 0 {
         html.push_str(&format!("<p>… {left_out} more bytes are not shown.</p>"));
+    }
+    html
+}
+
+/// Sentences of ours as HTML: `what stands in backticks` as code, the mathematics of the rest as print has it.
+pub fn sentences(text: &str) -> String {
+    let mut html = String::with_capacity(text.len() + 16);
+    let parts: Vec<&str> = text.split('`').collect();
+    for (i, part) in parts.iter().enumerate() {
+        if i % 2 == 1 && i + 1 < parts.len() {
+            html.push_str("<code>");
+            escape(&mut html, part);
+            html.push_str("</code>");
+        } else {
+            html.push_str(if i % 2 == 1 { "`" } else { "" });
+            escape(&mut html, &typeset(part));
+        }
     }
     html
 }
@@ -266,7 +283,7 @@ static CLEANER: LazyLock<Builder<'static>> = LazyLock::new(|| {
         "columnspan",
         "rowspan",
     ];
-    let table_classes = HashSet::from([
+    let table_classes = [
         "menv-alignlike",
         "menv-arraylike",
         "menv-cases",
@@ -275,21 +292,20 @@ static CLEANER: LazyLock<Builder<'static>> = LazyLock::new(|| {
         "cell-left",
         "cell-right",
         "menv-align",
-    ]);
-    let mut attributes: HashMap<&str, HashSet<&str>> =
-        math.iter().map(|&tag| (tag, HashSet::from(math_attributes))).collect();
-    attributes.insert("a", HashSet::from(["href"]));
-    attributes.insert("ol", HashSet::from(["start"]));
+    ];
+    let of_math = math.map(|tag| (tag, math_attributes.into_iter().collect()));
+    let of_text = [("a", ["href"]), ("ol", ["start"])].map(|(tag, list)| (tag, list.into_iter().collect()));
+    let classes = ["mtable", "mtr", "mtd"].map(|tag| (tag, table_classes.into_iter().collect()));
     let mut cleaner = Builder::empty();
     cleaner
         .tags(text.into_iter().chain(math).collect())
-        .tag_attributes(attributes)
-        .generic_attributes(HashSet::new())
-        .url_schemes(HashSet::from(["http", "https", "mailto"]))
+        .tag_attributes(of_math.into_iter().chain(of_text).collect())
+        .generic_attributes([].into())
+        .url_schemes(["http", "https", "mailto"].into())
         .url_relative(UrlRelative::Deny)
         .link_rel(Some("noopener noreferrer nofollow"))
-        .clean_content_tags(HashSet::from(["script", "style"]))
-        .allowed_classes(["mtable", "mtr", "mtd"].map(|tag| (tag, table_classes.clone())).into());
+        .clean_content_tags(["script", "style"].into())
+        .allowed_classes(classes.into());
     cleaner
 });
 
@@ -370,6 +386,13 @@ mod tests {
         assert!(to_html(&deep).contains("<code>"));
         let wide = format!("|{}\n|{}\n{}", "a|".repeat(1_000), "-|".repeat(1_000), "|b\n".repeat(1_000));
         assert!(to_html(&wide).contains("class=\"typed\""));
+    }
+
+    #[test]
+    fn backticks_are_code() {
+        assert_eq!(sentences("`-1,5` is not -1.5 s^2"), "<code>-1,5</code> is not −1.5 s²");
+        assert_eq!(sentences("a ` alone <b>"), "a ` alone &lt;b&gt;");
+        assert_eq!(sentences("`<b>` and `"), "<code>&lt;b&gt;</code> and `");
     }
 
     #[test]

@@ -189,7 +189,7 @@ fn item(question: &Question, item: &ItemScore, submission: &Submission) -> ItemV
         possible: item.possible.to_string(),
         expected: typeset(&sanitize(&item.evidence.expected)),
         found: typeset(&cropped(&item.evidence.found)),
-        reason: typeset(&sanitize(&item.evidence.reason)),
+        reason_html: prose::sentences(&sanitize(&item.evidence.reason)),
         quotes: quotes.into_iter().map(Into::into).collect(),
         provisional: item.provisional,
         override_reason: item.override_reason.as_deref().map(sanitize),
@@ -219,12 +219,12 @@ fn findings(submission: &Submission) -> Vec<FindingView> {
 fn finding(finding: &Finding, source: &SourceText) -> FindingView {
     let mut view = FindingView {
         severity: finding.severity.word(),
-        message: sanitize(&finding.message),
+        message_html: prose::sentences(&sanitize(&finding.message)),
         place: None,
         line_number: String::new(),
         line: None,
         caret: String::new(),
-        help: finding.help.as_deref().map(sanitize),
+        help_html: finding.help.as_deref().map(|help| prose::sentences(&sanitize(help))),
     };
     if let Some(span) = finding.span {
         let at = source.position(span.start);

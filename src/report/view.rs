@@ -113,7 +113,7 @@ pub struct ItemView {
     pub possible: String,
     pub expected: String,
     pub found: String,
-    pub reason: String,
+    pub reason_html: String,
     pub quotes: Vec<QuoteView>,
     pub provisional: bool,
     pub override_reason: Option<String>,
@@ -139,14 +139,14 @@ impl From<Quote> for QuoteView {
 #[derive(Clone, Debug, Serialize)]
 pub struct FindingView {
     pub severity: &'static str,
-    pub message: String,
+    pub message_html: String,
     pub place: Option<String>,
     pub line_number: String,
     /// The line it is about, cut to what is near; `None` without a place.
     pub line: Option<String>,
     /// Spaces and carets under the line.
     pub caret: String,
-    pub help: Option<String>,
+    pub help_html: Option<String>,
 }
 
 /// A level of an observed row.

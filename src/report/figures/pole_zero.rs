@@ -39,12 +39,11 @@ pub fn pole_zero(title: &str, poles: &[Pole], zeros: &[Pole], student: Option<&S
     let reach = |points: &[(f64, f64)], part: fn(&(f64, f64)) -> f64| {
         points.iter().map(|p| part(p).abs()).filter(|v| v.is_finite()).fold(0.0, f64::max)
     };
-    let (re, im): (fn(&(f64, f64)) -> f64, fn(&(f64, f64)) -> f64) = (|p| p.0, |p| p.1);
-    let size = reach(&reference, re).max(reach(&reference, im)).max(1e-9);
+    let size = reach(&reference, |p| p.0).max(reach(&reference, |p| p.1)).max(1e-9);
     let limit = (4.0 * size).max(if reference.is_empty() { f64::MAX.sqrt() } else { 0.0 });
     let seen: Vec<_> = own.iter().copied().filter(|p| p.0.abs() <= limit && p.1.abs() <= limit).collect();
     let shown: Vec<_> = reference.iter().chain(&seen).copied().collect();
-    let (left, right) = extent(shown.iter().map(re).chain([0.0])).unwrap_or((-1.0, 1.0));
+    let (left, right) = extent(shown.iter().map(|p| p.0).chain([0.0])).unwrap_or((-1.0, 1.0));
     let (left, right) = padded(left, right, 0.15);
     let tall = match shown.iter().map(|p| p.1.abs()).fold(0.0, f64::max) {
         0.0 => 0.5 * (right - left),

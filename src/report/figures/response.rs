@@ -120,7 +120,8 @@ fn sampled(response: &Response, view: &View, reach: f64) -> Vec<(f64, f64)> {
     let end_s = view.end_s;
     let far = 8.0 * if reach > 0.0 { reach } else { 1.0 };
     let instants = (1..=STEPS).map(|i| end_s * i as f64 / STEPS as f64);
-    let end_s = instants.clone().find(|&t| !(response.at(t).abs() < far)).unwrap_or(end_s);
+    let near = |t: f64| response.at(t).abs() < far;
+    let end_s = instants.clone().find(|&t| !near(t)).unwrap_or(end_s);
     let mut points = match even_steps(response, end_s).filter(|_| view.dense) {
         Some(steps) => {
             let instants = (0..=steps).map(|i| end_s * i as f64 / steps as f64);

@@ -47,8 +47,11 @@ fn segment(a: Point, b: Point, x: Point, y: Point) -> Option<(Point, Point, bool
 mod tests {
     use super::*;
 
+    /// What it is, the polyline, its visible parts.
+    type Row = (&'static str, &'static [Point], &'static [&'static [Point]]);
+
     #[track_caller]
-    fn check(rows: &[(&str, &[Point], &[&[Point]])]) {
+    fn check(rows: &[Row]) {
         for (what, points, expected) in rows {
             let got = clip(points, (0.0, 10.0), (0.0, 10.0));
             assert_eq!(got, expected.iter().map(|p| p.to_vec()).collect::<Vec<_>>(), "{what}");
