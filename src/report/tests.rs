@@ -252,6 +252,12 @@ fn a_wrong_system_is_drawn_over_the_right_one_and_the_caption_says_where_it_leav
     assert!((near.y.to - 0.96).abs() < 0.05 && near.y.from > -1.7, "{} to {}", near.y.from, near.y.to);
     assert!(figures.iter().all(|f| f.check().is_ok() && f.summary.contains("Period 1.125")));
 
+    let right = Response::new(&point.main().linearization.transfer_function, InputKind::Impulse).unwrap();
+    let whole = &prepared.figures(StudentCurves { own: Some(&right), data: None })[1];
+    let [_, tops, bottoms] = whole.series.as_slice() else { panic!("{} curves", whole.series.len()) };
+    assert!(tops.points.iter().all(|p| p.1 > 0.0) && bottoms.points.iter().all(|p| p.1 < 0.0));
+    assert!(bottoms.name.is_empty(), "one entry in the legend");
+
     let alone = prepared.figures(StudentCurves::default());
     assert_eq!(alone[0].caption, "");
     assert_eq!(alone[1].x.to, point.main().impulse.horizon_s);

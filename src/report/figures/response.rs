@@ -100,11 +100,11 @@ impl PreparedResponse {
         if !own.is_empty() {
             figure.caption += &leaving_words("The curve of your transfer function", &own, range);
             let name = "your transfer function".to_owned();
-            figure.series.push(Series { name, look: Look::Student, points: own });
+            figure.series.extend(over_dense(view, Series { name, look: Look::Student, points: own }));
         }
         for series in data {
             figure.caption += &leaving_words("The curve of your data", &series.points, range);
-            figure.series.push(series);
+            figure.series.extend(over_dense(view, series));
         }
         figure.caption = figure.caption.trim().to_owned();
         if !figure.caption.is_empty() {
@@ -112,6 +112,23 @@ impl PreparedResponse {
         }
         figure
     }
+}
+
+/// A curve as it is drawn over the reference: where swings are too dense to be told apart, by the lines along their tops and
+/// bottoms, since it would hide the reference otherwise.
+fn over_dense(view: &View, series: Series) -> Vec<Series> {
+    const SWINGS: usize = 8;
+    let turns = |sign: f64| {
+        let higher = |a: &(f64, f64), b: &(f64, f64)| sign * a.1 >= sign * b.1;
+        let tops = series.points.windows(3).filter(|w| higher(&w[1], &w[0]) && higher(&w[1], &w[2]));
+        tops.map(|w| w[1]).collect::<Vec<_>>()
+    };
+    let (tops, bottoms) = (turns(1.0), turns(-1.0));
+    if !view.dense || tops.len().min(bottoms.len()) < SWINGS {
+        return vec![series];
+    }
+    let look = series.look;
+    vec![Series { points: tops, ..series }, Series { name: String::new(), look, points: bottoms }]
 }
 
 /// The curve of a student's system as far as it matters: to the end of the view, or well past where it leaves the picture.
