@@ -109,6 +109,7 @@ fn review_entries(marked: &Marked) -> impl Iterator<Item = ReviewEntry> {
 fn why(item: &ItemScore) -> &'static str {
     match (item.verdict, item.code.split('.').next()) {
         (Verdict::Unmarked, _) => "polemark could not judge it",
+        (Verdict::Unreadable, _) => "something was written that cannot be read",
         (_, Some("concepts")) => "prose is judged by its words only",
         (_, Some("plot")) => "a picture cannot be read",
         _ => "to be confirmed",
