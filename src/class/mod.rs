@@ -3,10 +3,12 @@
 mod gradebook;
 mod intake;
 mod marked;
+mod outcome;
 mod results;
 mod run;
 mod statistics;
 
 pub use intake::{AnswerFile, IntakeError, find_answer_files};
 pub use marked::Marked;
-pub use run::{ClassError, ClassJob, Outcome, grade_class, read_capped};
+pub use outcome::Outcome;
+pub use run::{ClassError, ClassJob, grade_class, read_capped};

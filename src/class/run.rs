@@ -1,6 +1,7 @@
 use super::gradebook::Gradebook;
 use super::intake::{AnswerFile, UniqueNames};
 use super::marked::{Marked, our_failure, unmarked, unreadable_submission};
+use super::outcome::Outcome;
 use super::results::results_line;
 use super::statistics::Statistics;
 use crate::grading::{HandMarksFile, grade};
@@ -31,21 +32,6 @@ pub struct ClassJob<'a> {
     pub out: &'a Path,
     /// Worker threads; 0 is one a core.
     pub threads: usize,
-}
-
-/// What became of a class, for the summary at the end.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Outcome {
-    pub submissions: usize,
-    pub unreadable: usize,
-    /// Submissions that polemark itself failed on.
-    pub failed: usize,
-    /// Submissions with something a person should look at.
-    pub to_review: usize,
-    pub mean_earned: f64,
-    pub possible: f64,
-    /// Ids in the marks file that nobody in the class has.
-    pub marks_without_submission: Vec<String>,
 }
 
 #[derive(Debug, thiserror::Error)]

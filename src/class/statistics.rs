@@ -1,5 +1,5 @@
 use super::marked::Marked;
-use super::run::Outcome;
+use super::outcome::Outcome;
 use crate::grading::{ItemScore, Verdict};
 use crate::lab::{LabDefinition, Points};
 use crate::report::{ClassRow, ClassSummary, QuestionMean, ReviewEntry, item_anchor};

@@ -22,7 +22,7 @@ pub type ComparisonSample = (f64, f64, f64);
 /// Output deviation after an impulse at the input, linear beside nonlinear.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComparisonRun {
-    /// (push, samples of (t, linear, nonlinear)), output deviation from equilibrium in its unit; some 300 samples at most.
+    /// (push, samples of (t, linear, nonlinear)), output deviation from equilibrium in its unit; some 600 samples at most.
     pub runs: Vec<(f64, Vec<ComparisonSample>)>,
     /// The smallest impulse (input unit · s) whose departure reaches `Comparison::departure`, to three figures or better;
     /// `None` if none up to a million times the smallest push does (or every one down to a millionth of it).
@@ -77,7 +77,7 @@ const SEARCH_TOLERANCE: f64 = 1e-7;
 const PARTING_TOLERANCE: f64 = 1e-5;
 /// What lines between samples may miss, of the peak of the smaller curve; doubled until few enough are left.
 const DRAWING_TOLERANCE: f64 = 1e-3;
-const SAMPLES_LIMIT: usize = 300;
+const SAMPLES_LIMIT: usize = 600;
 
 struct Experiment {
     motion: Motion,
@@ -309,7 +309,7 @@ mod tests {
                 let run = plant.run(horizon_s, departure, &pushes);
                 for &(push, t, nonlinear, linear) in rows {
                     let (_, samples) = run.runs.iter().find(|(drawn, _)| *drawn == push).unwrap();
-                    assert!(samples.len() <= 300, "{name}: {} samples", samples.len());
+                    assert!(samples.len() <= SAMPLES_LIMIT, "{name}: {} samples", samples.len());
                     let found = between(samples, t);
                     // Lines between samples miss what they may of the smaller peak.
                     let peak = |pick: fn(&ComparisonSample) -> f64| {

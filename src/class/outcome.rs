@@ -1,0 +1,14 @@
+/// What became of a class, for the summary at the end.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Outcome {
+    pub submissions: usize,
+    pub unreadable: usize,
+    /// Submissions that polemark itself failed on.
+    pub failed: usize,
+    /// Submissions with something a person should look at.
+    pub to_review: usize,
+    pub mean_earned: f64,
+    pub possible: f64,
+    /// Ids in the marks file that nobody in the class has.
+    pub marks_without_submission: Vec<String>,
+}
