@@ -123,7 +123,7 @@ fn mean(kit: &ReportKit, mean: &QuestionMean) -> MeanView {
 
 /// Entries of the same criterion and the same reason together, in the order of their first.
 fn review(kit: &ReportKit, entries: &[ReviewEntry]) -> Vec<ReviewGroup> {
-    const OPEN: usize = 40;
+    const OPEN: usize = 8;
     let mut groups: Vec<(&ReviewEntry, Vec<EntryView>)> = Vec::new();
     let mut places = std::collections::BTreeMap::new();
     for entry in entries {
