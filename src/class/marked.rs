@@ -18,13 +18,9 @@ pub struct Marked {
 impl Marked {
     /// Criteria that wait for a person: provisional marks, and what polemark could not judge or read.
     pub fn items_to_review(&self) -> impl Iterator<Item = &ItemScore> {
-        self.scorecard
-            .questions
-            .iter()
-            .flat_map(|question| &question.items)
-            .filter(|item| {
-                item.provisional || matches!(item.verdict, Verdict::Unmarked | Verdict::Unreadable)
-            })
+        self.scorecard.questions.iter().flat_map(|question| &question.items).filter(|item| {
+            item.provisional || matches!(item.verdict, Verdict::Unmarked | Verdict::Unreadable)
+        })
     }
 }
 

@@ -14,12 +14,12 @@ const DRAWING_TOLERANCE: f64 = 1e-3;
 /// Why no reference could be computed: always the lab's fault, and always at a named place of it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ReferenceError {
-    #[error("model `{model}` at `{operating_point}`: {error}")]
-    Model { model: String, operating_point: String, error: ModelError },
-    #[error("model `{model}` at `{operating_point}`: {error}")]
-    Response { model: String, operating_point: String, error: ResponseError },
-    #[error("model `{model}` at `{operating_point}`: {error}")]
-    Roots { model: String, operating_point: String, error: RootError },
+    #[error("`{point}`: {error}")]
+    Model { point: String, error: Box<ModelError> },
+    #[error("the response of `{point}`: {error}")]
+    Response { point: String, error: ResponseError },
+    #[error("poles or zeros of `{point}`: {error}")]
+    Roots { point: String, error: RootError },
     #[error("simulation `{simulation}`: {error}")]
     Simulation { simulation: String, error: ChainError },
 }
@@ -125,16 +125,8 @@ fn linear_reference(
 ) -> Result<LinearReference, ReferenceError> {
     let linearization = linearize(&definition.model, &choice.values, &point.at, &point.input, &point.output)
         .map_err(|error| model_error(definition, point, error))?;
-    let root_error = |error| ReferenceError::Roots {
-        model: definition.id.clone(),
-        operating_point: point.id.clone(),
-        error,
-    };
-    let response_error = |error| ReferenceError::Response {
-        model: definition.id.clone(),
-        operating_point: point.id.clone(),
-        error,
-    };
+    let root_error = |error| ReferenceError::Roots { point: name(definition, point), error };
+    let response_error = |error| ReferenceError::Response { point: name(definition, point), error };
     let g = &linearization.transfer_function;
     let characteristic = linearization.state_space.characteristic_polynomial();
     Ok(LinearReference {
@@ -190,5 +182,10 @@ fn model_error(
     point: &OperatingPointDefinition,
     error: ModelError,
 ) -> ReferenceError {
-    ReferenceError::Model { model: definition.id.clone(), operating_point: point.id.clone(), error }
+    ReferenceError::Model { point: name(definition, point), error: Box::new(error) }
+}
+
+/// `cart.hanging`
+fn name(definition: &ModelDefinition, point: &OperatingPointDefinition) -> String {
+    format!("{}.{}", definition.id, point.id)
 }

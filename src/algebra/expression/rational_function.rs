@@ -372,9 +372,9 @@ mod tests {
         ]);
     }
 
+    /// Multiplied out, any of these would take minutes or all memory.
     #[test]
-    fn hostile_sizes_are_refused_quickly() {
-        let started = std::time::Instant::now();
+    fn hostile_sizes_are_refused() {
         for text in [
             "(s+1)^99999",
             "(s+1)^-99999",
@@ -396,8 +396,6 @@ mod tests {
             let refused = read(text).expect_err("too large");
             assert!(refused.message.len() < 300);
         }
-        // Generous: this is an unoptimized build on a busy machine.
-        assert!(started.elapsed().as_secs() < 20, "{:?}", started.elapsed());
         assert!(read("1^99999999999 + (-1)^3").is_ok());
     }
 }
