@@ -71,8 +71,13 @@ pub fn grade_class(job: &ClassJob<'_>, progress: &dyn Fn(usize)) -> Result<Outco
     let mut done = 0;
 
     for group in job.files.chunks(GROUP) {
-        let submissions: Vec<Submission> =
-            pool.install(|| group.par_iter().map(|file| read_submission(job.lab, file)).collect());
+        let submissions: Vec<Submission> = pool.install(|| {
+            group
+                .par_iter()
+                .map(|file| read_submission(job.lab, file))
+                .flat_map_iter(|submission| by_hand_marks(submission, job.marks))
+                .collect()
+        });
         // Names depend on who came before, so they are given in order.
         let named: Vec<(Submission, String)> = submissions
             .into_iter()
@@ -109,6 +114,17 @@ pub fn grade_class(job: &ClassJob<'_>, progress: &dyn Fn(usize)) -> Result<Outco
     let index = NewFile::create(job.out.join("index.html"))?;
     index.write_all(job.kit.class_page(&statistics.summary(job.lab)).as_bytes())?;
     Ok(outcome)
+}
+
+/// Group members who were given different marks by hand (a viva each, say) are marked and reported one by one.
+fn by_hand_marks(submission: Submission, marks: Option<&HandMarksFile>) -> Vec<Submission> {
+    let given = |student: &Student| marks.and_then(|file| file.student(&student.id));
+    let alike = submission.students.windows(2).all(|pair| given(&pair[0]) == given(&pair[1]));
+    if alike {
+        return vec![submission];
+    }
+    let alone = |student: &Student| Submission { students: vec![student.clone()], ..submission.clone() };
+    submission.students.iter().map(alone).collect()
 }
 
 /// Who it is from, as far as could be read; the file's name otherwise.
@@ -149,7 +165,8 @@ fn mark_and_write(
     mut submission: Submission,
     report: String,
 ) -> Result<Marked, ClassError> {
-    let marks = job.marks.and_then(|file| submission.students.iter().find_map(|s| file.student(&s.id)));
+    // Members of a group that are still together were given the same.
+    let marks = job.marks.and_then(|file| file.student(&submission.students.first()?.id));
     let mut failed = submission.findings.iter().any(|f| f.code == our_failure().code);
     let scorecard = match catch_unwind(AssertUnwindSafe(|| grade(job.lab, job.reference, &submission, marks)))
     {

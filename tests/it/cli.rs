@@ -318,3 +318,27 @@ fn marks_given_by_a_person_count_and_make_the_cover_whole() {
         .run(&["grade", &file.to_string_lossy(), "--marks", &wrong.to_string_lossy(), "--out", "out2"])
         .ends_with(1);
 }
+
+/// Two who hand in together may still be asked different questions in the viva.
+#[test]
+fn members_of_a_group_keep_their_own_marks_by_hand() {
+    let bench = Bench::new();
+    let answers = "lab: ee361-lab3\nstudents:\n  - {id: EE-1, name: A. Student}\n  - {id: EE-2, name: B. Learner}\nanswers:\n  speaker.nonlinearity: saturation\n";
+    let file = bench.write("group.yaml", answers);
+    let marks =
+        bench.write("marks.yaml", "lab: ee361-lab3\nstudents:\n  EE-1: {viva: 30}\n  EE-2: {viva: 12}\n");
+    bench
+        .run(&["grade", &file.to_string_lossy(), "--marks", &marks.to_string_lossy(), "--out", "out"])
+        .ends_with(0);
+    let mut rows = csv::Reader::from_path(bench.path("out/gradebook.csv")).expect("written");
+    let viva =
+        rows.headers().expect("headers").iter().position(|h| h.starts_with("cover.viva")).expect("a column");
+    let vivas: Vec<(String, String)> = rows
+        .records()
+        .map(|row| row.expect("read"))
+        .map(|row| (row[0].to_owned(), row[viva].to_owned()))
+        .collect();
+    let wanted = [("EE-1", "30"), ("EE-2", "12")].map(|(id, points)| (id.to_owned(), points.to_owned()));
+    assert_eq!(vivas, wanted);
+    assert!(bench.path("out/reports/EE-1.html").exists() && bench.path("out/reports/EE-2.html").exists());
+}
