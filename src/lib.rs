@@ -1,6 +1,8 @@
 //! polemark marks control-systems lab reports from the equations up.
 //!
 //! ```text
+//!    names                   which known name a mistyped one is nearest to
+//!     │
 //!   algebra                  exact rationals, polynomials, expressions
 //!     │           source     text with places in it: spans, findings, a YAML tree
 //!   lti   nonlinear  │       transfer functions, poles, responses · saturation, dead zone, backlash
@@ -19,6 +21,8 @@
 //! ```
 //!
 //! A module imports from modules above it, never from below.
+
+mod names;
 
 pub mod algebra;
 pub mod lti;

@@ -2,6 +2,7 @@ use super::Verdict;
 use super::mark::Mark;
 use crate::algebra::{Rational, parse_decimal};
 use crate::lab::{CoverSource, LabDefinition, Points};
+use crate::names::nearest;
 use crate::source::{self, Finding, Node, Severity, SourceText, Span, Value, sanitize};
 use std::collections::BTreeMap;
 
@@ -278,7 +279,7 @@ impl Reader<'_> {
     }
 
     fn unknown(&mut self, name: &str, span: Span, known: &[impl AsRef<str>], what: &str) {
-        let help = match nearest(name, known) {
+        let help = match nearest(name, known.iter().map(AsRef::as_ref)) {
             Some(near) => format!("Did you mean `{near}`?"),
             None if known.is_empty() => "This lab has none.".to_owned(),
             None => {
@@ -293,18 +294,6 @@ impl Reader<'_> {
 
 fn quoted(text: &str) -> String {
     format!("`{}`", sanitize(text))
-}
-
-/// The known name a mistyped one stands for: at most a third of its letters wrong.
-fn nearest<'k>(name: &str, known: &'k [impl AsRef<str>]) -> Option<&'k str> {
-    let name = name.to_lowercase();
-    known
-        .iter()
-        .map(AsRef::as_ref)
-        .map(|one| (strsim::damerau_levenshtein(&name, &one.to_lowercase()), one))
-        .filter(|(distance, one)| *distance * 3 <= one.chars().count().max(name.chars().count()))
-        .min()
-        .map(|(_, one)| one)
 }
 
 #[cfg(test)]

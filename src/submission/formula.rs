@@ -1,9 +1,9 @@
 use super::decimal_commas::decimal_comma_between;
 use super::problem::{Problem, quote};
-use super::words::closest;
 use super::{AnswerSheet, AnswerValue, Decimal};
 use crate::algebra::{Expression, ExpressionError, Polynomial, Rational};
 use crate::lti::TransferFunction;
+use crate::names::nearest;
 use crate::source::{Finding, Node, Value};
 use std::collections::BTreeMap;
 
@@ -120,7 +120,7 @@ fn from_coefficients(
         } else if DEN.contains(&name.as_str()) {
             &mut den
         } else {
-            let near = closest(&name, ["num", "den", "numerator", "denominator"]);
+            let near = nearest(&name, ["num", "den", "numerator", "denominator"]);
             let help = near.map_or_else(|| HELP.to_owned(), |near| format!("Did you mean `{near}`?"));
             let message = format!("{} is not a part of a transfer function.", quote(key));
             return Err(Box::new(Finding::error(CODE, message).with_help(help).at(*span)));

@@ -1,6 +1,6 @@
 use super::Student;
 use super::problem::quote;
-use super::words::closest;
+use crate::names::nearest;
 use crate::source::{Finding, Node, Span, Value};
 
 /// Students in one file.
@@ -56,7 +56,7 @@ impl People {
                         "id" | "student_id" | "number" => &mut student.id,
                         "name" | "full_name" => &mut student.name,
                         _ => {
-                            let near = closest(&name, ["id", "name"]);
+                            let near = nearest(&name, ["id", "name"]);
                             let help = near.map_or(HELP.to_owned(), |near| format!("Did you mean `{near}`?"));
                             let message = format!("{} is not asked for about a student.", quote(key));
                             self.findings.push(

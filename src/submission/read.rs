@@ -5,11 +5,12 @@ use super::poles::{MAX_POLES, ReadPole, parse_poles};
 use super::problem::{Problem, quote};
 use super::series::{parse_series, rows_as_text};
 use super::value::parse_value;
-use super::words::{NONLINEARITY_WORDS, SHAPE_WORDS, STABILITY_WORDS, closest};
+use super::words::{NONLINEARITY_WORDS, SHAPE_WORDS, STABILITY_WORDS};
 use super::{
     Answer, AnswerSheet, AnswerValue, Attachments, Field, FieldKind, MAX_ATTACHMENT_BYTES, Submission,
     TypedComplex, Unreadable, nonlinearity_word, people, shape_word, stability_word,
 };
+use crate::names::nearest;
 use crate::source::{
     Finding, Node, SourceText, Span, Value, YamlError, decode, decode_within, parse_with_duplicates,
 };
@@ -275,7 +276,7 @@ impl<'a> Reader<'a> {
         }
         let mut finding =
             Finding::error("key.unknown", format!("{} is not asked for in this lab.", quote(key)));
-        if let Some(near) = closest(&plain_key(key), known) {
+        if let Some(near) = nearest(&plain_key(key), known) {
             finding.message = format!("{} is not asked for; did you mean `{near}`?", quote(key));
             finding.help = Some(format!("Write `{near}:` if that is what this answers."));
         }
@@ -484,7 +485,7 @@ fn word<T>(
         scalar(node, code, &format!("A word for {} is asked for here", wanted.trim_start_matches("a ")))?;
     read(text).ok_or_else(|| {
         let list = words.iter().map(|w| format!("`{w}`")).collect::<Vec<_>>().join(", ");
-        let help = match closest(text.trim(), words.iter().copied()) {
+        let help = match nearest(text.trim(), words.iter().copied()) {
             Some(near) => format!("Did you mean `{near}`? These words are read: {list}."),
             None => format!("Write one of {list}."),
         };

@@ -230,24 +230,6 @@ pub(super) const NONLINEARITY_WORDS: &[&str] = &[
     "rate limit",
 ];
 
-/// The candidate that `text` was likely meant to be: at most a third of its letters differ.
-pub(super) fn closest<'a>(text: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    if text.len() > 100 {
-        return None;
-    }
-    let text = text.to_lowercase();
-    candidates
-        .into_iter()
-        .map(|c| {
-            let lower = c.to_lowercase();
-            let distance = strsim::damerau_levenshtein(&text, &lower);
-            (distance, -strsim::jaro_winkler(&text, &lower), c)
-        })
-        .filter(|(distance, _, c)| *distance * 3 <= c.chars().count().max(text.chars().count()))
-        .min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)))
-        .map(|(_, _, c)| c)
-}
-
 const NEGATIONS: &[&str] = &["not", "never", "no", "non", "neither", "nor", "without"];
 const HEDGES: &[&str] = &["or", "if", "unless", "maybe", "perhaps", "but", "either", "depends", "until"];
 const NOT_STABLE: &[&str] = &["not stable", "not bibo stable", "non stable", "nonstable", "never stable"];
@@ -602,14 +584,5 @@ mod tests {
             stability_word("asymptotically stable").map(stability_name),
             Some("asymptotically stable")
         );
-    }
-
-    #[test]
-    fn near_misses_are_recognised() {
-        let of = |text| closest(text, STABILITY_WORDS.iter().copied());
-        assert_eq!(of("stabel"), Some("stable"));
-        assert_eq!(of("Unstabel"), Some("unstable"));
-        assert_eq!(of("banana"), None);
-        assert_eq!(of(""), None);
     }
 }

@@ -1,5 +1,6 @@
 use super::super::clip::clip;
 use super::{Expression, ExpressionError, NodeKind};
+use crate::names::nearest;
 
 /// A name in a formula, and where it stands.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -42,7 +43,7 @@ pub(super) fn unknown(name: &str, start: usize, end: usize, declared: &[&str]) -
     let names = format!("the names are {}", list.join(", "));
     let meant = power_for(name, declared)
         .or_else(|| product_of(name, declared))
-        .or_else(|| closest(name, declared.iter().copied()).map(str::to_owned));
+        .or_else(|| nearest(name, declared.iter().copied()).map(str::to_owned));
     let help = match meant {
         Some(meant) => format!("did you mean `{meant}`? {names}"),
         None if declared.is_empty() => "write numbers only".to_owned(),
@@ -50,23 +51,6 @@ pub(super) fn unknown(name: &str, start: usize, end: usize, declared: &[&str]) -
     };
     let message = format!("`{}` is not a name we know", clip(name));
     ExpressionError { start, end, message, help: Some(help) }
-}
-
-/// The known name most like `name`, when one is like it at all.
-pub(super) fn closest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let name: String = name.chars().take(40).collect();
-    let mut best: Option<(f64, &str)> = None;
-    for candidate in known {
-        let likeness = if candidate.to_lowercase() == name.to_lowercase() {
-            1.0
-        } else {
-            strsim::jaro_winkler(&name, candidate)
-        };
-        if likeness > best.map_or(0.75, |(b, _)| b) {
-            best = Some((likeness, candidate));
-        }
-    }
-    best.map(|(_, candidate)| candidate)
 }
 
 /// `s2` → `s^2` when `s` is known.

@@ -159,7 +159,7 @@ impl Parser {
                 let unknown =
                     error(left.start, left.end, format!("`{}` is not a function we know", clip(name)));
                 let known = Function::ALL.map(Function::name);
-                return Err(match super::names::closest(name, known) {
+                return Err(match crate::names::nearest(name, known) {
                     Some(near) => unknown.helped(format!("did you mean `{near}`?")),
                     None => unknown.helped(format!("write `{}*(` to multiply", clip(name))),
                 });
