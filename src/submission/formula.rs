@@ -1,17 +1,20 @@
+use super::comma_to_point::{Pointed, comma_in_list_text, commas_read, settled};
 use super::decimal_commas::decimal_comma_between;
 use super::problem::{Problem, quote};
 use super::{AnswerSheet, AnswerValue, Decimal};
 use crate::algebra::{Expression, ExpressionError, Polynomial, Rational};
 use crate::lti::TransferFunction;
 use crate::names::nearest;
-use crate::source::{Finding, Node, Value};
+use crate::source::{Finding, Node, Span, Value};
 use std::collections::BTreeMap;
 
 const CODE: &str = "transfer_function.unreadable";
 const HELP: &str = "Write it like `0.5s / (s^2 + 2s + 5)`, or as coefficients, highest power first: `{num: [0.5, 0], den: [1, 2, 5]}`.";
 
-/// Coefficients of one polynomial.
-const MAX_COEFFICIENTS: usize = 61;
+/// Degree of numerator and denominator.
+const MAX_DEGREE: usize = 30;
+/// Coefficients of one polynomial as a list.
+const MAX_COEFFICIENTS: usize = MAX_DEGREE + 1;
 
 type Symbols = BTreeMap<String, Rational>;
 
@@ -21,33 +24,43 @@ pub(super) fn read_transfer_function(
     sheet: &AnswerSheet,
     source: &str,
 ) -> Result<(AnswerValue, Vec<Finding>), Box<Finding>> {
+    let mut reader = Reader { symbols: &sheet.symbols, source, commas: Vec::new() };
     let (transfer_function, formula) = match &node.value {
-        Value::Scalar(text) => {
-            parse_formula(text, &sheet.symbols).map_err(|p| Box::new(p.into_finding(node, source)))?
-        }
-        Value::Mapping(entries) => (from_coefficients(node, entries, &sheet.symbols, source)?, None),
+        Value::Scalar(text) => reader.formula(node, text)?,
+        Value::Mapping(entries) => (reader.coefficients(node, entries)?, None),
         Value::Sequence(_) | Value::Null => {
             let message = format!("A transfer function is asked for here, and {} is given.", node.kind());
             return Err(Box::new(Finding::error(CODE, message).with_help(HELP).at(node.span)));
         }
     };
     let (num, den) = (transfer_function.num.degree(), transfer_function.den.degree());
-    let notes = if num > den {
+    if num.max(den) > MAX_DEGREE {
+        let message = format!(
+            "The transfer function has degree {}, more than the {MAX_DEGREE} that are read.",
+            num.max(den)
+        );
+        let help = "Cancel or divide what is common to numerator and denominator, and look for slips.";
+        return Err(Box::new(
+            Finding::error("transfer_function.degree", message).with_help(help).at(node.span),
+        ));
+    }
+    let mut notes: Vec<Finding> = commas_read(&reader.commas, source).into_iter().collect();
+    if num > den {
         let message = format!("As written, the numerator has degree {num} and the denominator only {den}.");
         let help = "If the denominator is a sum, put it in parentheses: `a / (b + c)`.";
-        vec![Finding::warning("transfer_function.improper", message).with_help(help).at(node.span)]
-    } else {
-        Vec::new()
-    };
+        notes.push(Finding::warning("transfer_function.improper", message).with_help(help).at(node.span));
+    }
     Ok((AnswerValue::TransferFunction { transfer_function, formula }, notes))
 }
 
 /// `G(s) = -0.06s / (…)`, also in letters, also MATLAB's `tf([…], […])`.
 fn parse_formula(text: &str, symbols: &Symbols) -> Result<(TransferFunction, Option<Expression>), Problem> {
-    // What stands before the last `=` is a name.
-    let start = text.rfind(['=', '≈']).map_or(0, |i| i + text[i..].chars().next().map_or(1, char::len_utf8));
+    let start = after_name(text);
     let body = &text[start..];
     if let Some((num, den)) = matlab(body) {
+        if let Some(problem) = [num, den].into_iter().find_map(comma_in_list_text) {
+            return Err(Problem { start, end: text.len(), ..problem });
+        }
         let list = |list: &str| coefficient_words(list).map(Polynomial::new);
         let problem = || Problem::new(CODE, start, text.len(), "This `tf(…)` cannot be read.").help(HELP);
         let (num, den) = (list(num).ok_or_else(problem)?, list(den).ok_or_else(problem)?);
@@ -66,6 +79,11 @@ fn parse_formula(text: &str, symbols: &Symbols) -> Result<(TransferFunction, Opt
         Some(g) => Ok((g, Some(formula))),
         None => Err(Problem::new(CODE, start, text.len(), "The denominator is zero.").help(HELP)),
     }
+}
+
+/// Where the formula begins: what stands before the last `=` is a name.
+fn after_name(text: &str) -> usize {
+    text.rfind(['=', '≈']).map_or(0, |i| i + text[i..].chars().next().map_or(1, char::len_utf8))
 }
 
 fn formula_problem(error: ExpressionError, offset: usize) -> Problem {
@@ -102,108 +120,153 @@ fn coefficient_words(text: &str) -> Option<Vec<Rational>> {
     words.into_iter().map(|word| Decimal::parse(word).ok().map(|d| d.value)).collect()
 }
 
-type Entry = (String, crate::source::Span, Node);
+type Entry = (String, Span, Node);
 
-fn from_coefficients(
-    node: &Node,
-    entries: &[Entry],
-    symbols: &Symbols,
-    source: &str,
-) -> Result<TransferFunction, Box<Finding>> {
-    const NUM: &[&str] = &["num", "numerator", "n"];
-    const DEN: &[&str] = &["den", "denominator", "denom", "d"];
-    let (mut num, mut den) = (None, None);
-    for (key, span, value) in entries {
-        let name = key.trim().to_lowercase();
-        let part = if NUM.contains(&name.as_str()) {
-            &mut num
-        } else if DEN.contains(&name.as_str()) {
-            &mut den
-        } else {
-            let near = nearest(&name, ["num", "den", "numerator", "denominator"]);
-            let help = near.map_or_else(|| HELP.to_owned(), |near| format!("Did you mean `{near}`?"));
-            let message = format!("{} is not a part of a transfer function.", quote(key));
-            return Err(Box::new(Finding::error(CODE, message).with_help(help).at(*span)));
+/// Reads one transfer function, and remembers its decimal commas.
+struct Reader<'a> {
+    symbols: &'a Symbols,
+    source: &'a str,
+    commas: Vec<(Span, String)>,
+}
+
+impl Reader<'_> {
+    fn place(&self, problem: Problem, node: &Node) -> Box<Finding> {
+        Box::new(problem.into_finding(node, self.source))
+    }
+
+    /// The text with points for decimal commas after byte `from`; see [`Pointed::read`].
+    fn pointed(
+        &mut self,
+        node: &Node,
+        text: &str,
+        from: usize,
+        settled: bool,
+    ) -> Result<String, Box<Finding>> {
+        let pointed = Pointed::read(text, from, settled).map_err(|problem| self.place(problem, node))?;
+        self.commas.extend(pointed.places(node, self.source));
+        Ok(pointed.text.into_owned())
+    }
+
+    fn formula(
+        &mut self,
+        node: &Node,
+        text: &str,
+    ) -> Result<(TransferFunction, Option<Expression>), Box<Finding>> {
+        let from = after_name(text);
+        // In MATLAB's lists commas separate.
+        let from = if matlab(&text[from..]).is_some() { text.len() } else { from };
+        let pointed = self.pointed(node, text, from, settled([&text[from..]]))?;
+        parse_formula(&pointed, self.symbols).map_err(|problem| self.place(problem, node))
+    }
+
+    fn coefficients(&mut self, node: &Node, entries: &[Entry]) -> Result<TransferFunction, Box<Finding>> {
+        const NUM: &[&str] = &["num", "numerator", "n"];
+        const DEN: &[&str] = &["den", "denominator", "denom", "d"];
+        let texts = entries.iter().flat_map(|(_, _, value)| match &value.value {
+            Value::Sequence(items) => items.as_slice(),
+            _ => std::slice::from_ref(value),
+        });
+        let settled = settled(texts.filter_map(Node::as_scalar));
+        let (mut num, mut den) = (None, None);
+        for (key, span, value) in entries {
+            let name = key.trim().to_lowercase();
+            let part = if NUM.contains(&name.as_str()) {
+                &mut num
+            } else if DEN.contains(&name.as_str()) {
+                &mut den
+            } else {
+                let near = nearest(&name, ["num", "den", "numerator", "denominator"]);
+                let help = near.map_or_else(|| HELP.to_owned(), |near| format!("Did you mean `{near}`?"));
+                let message = format!("{} is not a part of a transfer function.", quote(key));
+                return Err(Box::new(Finding::error(CODE, message).with_help(help).at(*span)));
+            };
+            if part.is_some() {
+                let message = format!("{} is given twice.", quote(key));
+                return Err(Box::new(Finding::error(CODE, message).with_help(HELP).at(*span)));
+            }
+            *part = Some(self.polynomial(value, settled)?);
+        }
+        let missing = |part: &str| {
+            Box::new(
+                Finding::error(CODE, format!("The {part} of the transfer function is missing."))
+                    .with_help(HELP)
+                    .at(node.span),
+            )
         };
-        if part.is_some() {
-            let message = format!("{} is given twice.", quote(key));
-            return Err(Box::new(Finding::error(CODE, message).with_help(HELP).at(*span)));
-        }
-        *part = Some(polynomial(value, symbols, source)?);
+        let (num, den) =
+            (num.ok_or_else(|| missing("numerator"))?, den.ok_or_else(|| missing("denominator"))?);
+        TransferFunction::new(num, den).ok_or_else(|| {
+            Box::new(Finding::error(CODE, "The denominator is zero.").with_help(HELP).at(node.span))
+        })
     }
-    let missing = |part: &str| {
-        Box::new(
-            Finding::error(CODE, format!("The {part} of the transfer function is missing."))
-                .with_help(HELP)
-                .at(node.span),
-        )
-    };
-    let (num, den) = (num.ok_or_else(|| missing("numerator"))?, den.ok_or_else(|| missing("denominator"))?);
-    TransferFunction::new(num, den).ok_or_else(|| {
-        Box::new(Finding::error(CODE, "The denominator is zero.").with_help(HELP).at(node.span))
-    })
-}
 
-/// A polynomial as a list of coefficients, as text with such a list, or as a formula in `s`.
-fn polynomial(node: &Node, symbols: &Symbols, source: &str) -> Result<Polynomial, Box<Finding>> {
-    match &node.value {
-        Value::Sequence(items) => {
-            if let Some(finding) = decimal_comma_between(items, source, false) {
-                return Err(Box::new(finding));
+    /// A polynomial as a list of coefficients, as text with such a list, or as a formula in `s`.
+    fn polynomial(&mut self, node: &Node, settled: bool) -> Result<Polynomial, Box<Finding>> {
+        match &node.value {
+            Value::Sequence(items) => {
+                if let Some(finding) = decimal_comma_between(items, self.source, false) {
+                    return Err(Box::new(finding));
+                }
+                if items.is_empty() || items.len() > MAX_COEFFICIENTS {
+                    let message = format!(
+                        "A list of 1 to {MAX_COEFFICIENTS} coefficients is asked for here, and {} are given.",
+                        items.len()
+                    );
+                    return Err(Box::new(Finding::error(CODE, message).with_help(HELP).at(node.span)));
+                }
+                items
+                    .iter()
+                    .map(|item| self.coefficient(item, settled))
+                    .collect::<Result<_, _>>()
+                    .map(Polynomial::new)
             }
-            if items.is_empty() || items.len() > MAX_COEFFICIENTS {
-                let message = format!(
-                    "A list of 1 to {MAX_COEFFICIENTS} coefficients is asked for here, and {} are given.",
-                    items.len()
-                );
-                return Err(Box::new(Finding::error(CODE, message).with_help(HELP).at(node.span)));
+            Value::Scalar(text) => {
+                if let Some(words) = coefficient_words(text) {
+                    return match Pointed::as_typed(text).err().or_else(|| comma_in_list_text(text)) {
+                        Some(problem) => Err(self.place(problem, node)),
+                        None => Ok(Polynomial::new(words)),
+                    };
+                }
+                let text = self.pointed(node, text, 0, settled)?;
+                let (num, den) = Expression::parse_typed(&text)
+                    .and_then(|expression| expression.rational_function("s", self.symbols))
+                    .map_err(|error| self.place(formula_problem(error, 0), node))?;
+                match den.leading() {
+                    Some(divisor) if den.degree() == 0 => Ok(num.scale(&(Rational::ONE / divisor))),
+                    _ => Err(Box::new(
+                        Finding::error(CODE, "Numerator and denominator have to be polynomials in `s`.")
+                            .with_help(HELP)
+                            .at(node.span),
+                    )),
+                }
             }
-            items
-                .iter()
-                .map(|item| coefficient(item, symbols, source))
-                .collect::<Result<_, _>>()
-                .map(Polynomial::new)
-        }
-        Value::Scalar(text) => {
-            if let Some(words) = coefficient_words(text) {
-                return Ok(Polynomial::new(words));
+            Value::Null | Value::Mapping(_) => {
+                let message =
+                    format!("A list of coefficients is asked for here, and {} is given.", node.kind());
+                Err(Box::new(Finding::error(CODE, message).with_help(HELP).at(node.span)))
             }
-            let (num, den) = Expression::parse_typed(text)
-                .and_then(|expression| expression.rational_function("s", symbols))
-                .map_err(|error| Box::new(formula_problem(error, 0).into_finding(node, source)))?;
-            match den.leading() {
-                Some(divisor) if den.degree() == 0 => Ok(num.scale(&(Rational::ONE / divisor))),
-                _ => Err(Box::new(
-                    Finding::error(CODE, "Numerator and denominator have to be polynomials in `s`.")
-                        .with_help(HELP)
-                        .at(node.span),
-                )),
-            }
-        }
-        Value::Null | Value::Mapping(_) => {
-            let message = format!("A list of coefficients is asked for here, and {} is given.", node.kind());
-            Err(Box::new(Finding::error(CODE, message).with_help(HELP).at(node.span)))
         }
     }
-}
 
-/// A decimal or letters: `0.0132`, `m*l`, `-1/3`.
-fn coefficient(node: &Node, symbols: &Symbols, source: &str) -> Result<Rational, Box<Finding>> {
-    let Some(text) = node.as_scalar() else {
-        let message = format!("A coefficient is asked for here, and {} is given.", node.kind());
-        return Err(Box::new(Finding::error(CODE, message).with_help(HELP).at(node.span)));
-    };
-    if let Ok(decimal) = Decimal::parse(text) {
-        return Ok(decimal.value);
-    }
-    let (num, den) = Expression::parse_typed(text)
-        .and_then(|expression| expression.rational_function("s", symbols))
-        .map_err(|error| Box::new(formula_problem(error, 0).into_finding(node, source)))?;
-    match den.leading() {
-        Some(divisor) if num.degree() == 0 && den.degree() == 0 => Ok(num.coefficient(0) / divisor),
-        _ => {
-            let message = format!("{} is not a number: coefficients stand without `s`.", quote(text));
-            Err(Box::new(Finding::error(CODE, message).with_help(HELP).at(node.span)))
+    /// A decimal or letters: `0.0132`, `m*l`, `-1/3`.
+    fn coefficient(&mut self, node: &Node, settled: bool) -> Result<Rational, Box<Finding>> {
+        let Some(text) = node.as_scalar() else {
+            let message = format!("A coefficient is asked for here, and {} is given.", node.kind());
+            return Err(Box::new(Finding::error(CODE, message).with_help(HELP).at(node.span)));
+        };
+        let text = self.pointed(node, text, 0, settled)?;
+        if let Ok(decimal) = Decimal::parse(&text) {
+            return Ok(decimal.value);
+        }
+        let (num, den) = Expression::parse_typed(&text)
+            .and_then(|expression| expression.rational_function("s", self.symbols))
+            .map_err(|error| self.place(formula_problem(error, 0), node))?;
+        match den.leading() {
+            Some(divisor) if num.degree() == 0 && den.degree() == 0 => Ok(num.coefficient(0) / divisor),
+            _ => {
+                let message = format!("{} is not a number: coefficients stand without `s`.", quote(&text));
+                Err(Box::new(Finding::error(CODE, message).with_help(HELP).at(node.span)))
+            }
         }
     }
 }
@@ -212,7 +275,7 @@ fn coefficient(node: &Node, symbols: &Symbols, source: &str) -> Result<Rational,
 mod tests {
     use super::*;
     use crate::algebra::parse_decimal;
-    use crate::source::parse;
+    use crate::source::{Severity, parse};
 
     fn sheet() -> AnswerSheet {
         let symbols = [("M", "0.5"), ("b", "0.1"), ("m", "0.2"), ("l", "0.3"), ("I", "0.006"), ("g", "9.81")]
@@ -271,7 +334,21 @@ mod tests {
     #[test]
     fn what_cannot_be_read_says_where_and_how() {
         for (yaml, marked, words) in [
-            ("-0,06s / (s + 1)", "0,06", "comma"),
+            ("-1,006s / (s + 1)", "1,006", "may be 1.006 or 1006"),
+            ("{num: ['1,006', 0], den: [1, 1]}", "1,006", "may be 1.006 or 1006"),
+            ("tf([-0,06 0], [1 1])", "tf([-0,06 0], [1 1])", "`0,06`"),
+            ("{num: '0,5', den: [1, 1]}", "0,5", "`0,5`"),
+            ("1/(s^31 + 1)", "1/(s^31 + 1)", "degree 31"),
+            (
+                "{num: [1], den: [1, 1111111111111111111111111111111111111111111111111111111111111]}",
+                "1111111111111111111111111111111111111111111111111111111111111",
+                "61 digits",
+            ),
+            (
+                "1/(s + 1111111111111111111111111111111111111111111111111111111111111)",
+                "1111111111111111111111111111111111111111111111111111111111111",
+                "61 digits",
+            ),
             ("1/(s + q)", "q", "`q`"),
             ("1/(s + 1", "(", "never closed"),
             ("{num: [1], den: [0, 0]}", "{num: [1], den: [0, 0]}", "zero"),
@@ -289,6 +366,27 @@ mod tests {
             assert_eq!(&format!("g: {yaml}")[span.start..span.end], marked, "{yaml:?}: {finding:?}");
             assert!(finding.message.contains(words), "{yaml:?}: {finding:?}");
             assert!(finding.message.ends_with('.') && finding.help.is_some(), "{yaml:?}: {finding:?}");
+        }
+    }
+
+    #[test]
+    fn decimal_commas_are_read_and_said() {
+        let expected = read("-0.06s / (5.568s + 0.05)").unwrap().0;
+        for (yaml, words) in [
+            (
+                "-0,06s / (5,568s + 0,05)",
+                "`-0,06` is read as -0.06. So are the 2 other decimal commas in this answer.",
+            ),
+            ("G_1,2(s) = -0,06s / (5,568s + 0,05)", "`-0,06` is read as -0.06."),
+            ("{num: '-0,06s', den: '5,568s + 0,05'}", "So are the 2 other"),
+            ("{num: ['-0,06', 0], den: ['5,568', '0,05']}", "So are the 2 other"),
+            ("{num: [-0.06, 0], den: [5.568, \"5,00e-2\"]}", "`5,00`"),
+        ] {
+            let (found, notes) = read(yaml).unwrap_or_else(|finding| panic!("{yaml}: {finding:?}"));
+            assert_eq!(found, expected, "{yaml}");
+            let [note] = notes.as_slice() else { panic!("{yaml}: {notes:?}") };
+            assert_eq!((note.severity, note.code), (Severity::Warning, "number.comma_read"));
+            assert!(note.message.contains(words), "{yaml}: {note:?}");
         }
     }
 

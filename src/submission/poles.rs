@@ -1,7 +1,6 @@
 use super::Decimal;
 use super::decimal::{is_minus, scan};
 use super::problem::{Problem, quote};
-use super::value::decimal_comma;
 
 /// Poles in one list, repeated ones counted.
 pub(super) const MAX_POLES: usize = 60;
@@ -289,9 +288,7 @@ impl Cursor<'_> {
     fn number(&mut self) -> Result<Option<Decimal>, Problem> {
         let Some((number, length)) = scan(self.rest()) else { return Ok(None) };
         if let Some(problem) = decimal_comma(self.text, self.at, length) {
-            let or = "If the comma separates two numbers, put a space after it.";
-            let help = problem.help.as_deref().map(|help| format!("{help} {or}"));
-            return Err(Problem { help, ..problem });
+            return Err(problem);
         }
         let start = self.at;
         self.at += length;
@@ -369,6 +366,32 @@ impl Cursor<'_> {
             .help("Write a double pole like `-1 (x2)`, or list it twice.")),
         }
     }
+}
+
+/// A number whose whole part is followed by `,` and a digit, where the comma may also separate two poles.
+fn decimal_comma(text: &str, start: usize, length: usize) -> Option<Problem> {
+    let fraction = text[start + length..].strip_prefix(',')?;
+    let digits = fraction.bytes().take_while(u8::is_ascii_digit).count();
+    if digits == 0 || text[start..start + length].contains(['.', 'e', 'E']) {
+        return None;
+    }
+    let end = start + length + 1 + digits;
+    let minus = text[..start].trim_end().chars().next_back().is_some_and(is_minus);
+    let written = format!(
+        "{}{}.{}",
+        if minus { "-" } else { "" },
+        &text[start..start + length],
+        &text[start + length + 1..end]
+    );
+    Some(
+        Problem::new(
+            "number.decimal_comma",
+            start,
+            end,
+            format!("{} may be one number or two, and is not read.", quote(&text[start..end])),
+        )
+        .help(format!("Write {}; if two numbers are meant, put a space after the comma.", quote(&written))),
+    )
 }
 
 fn unit_size() -> Decimal {
@@ -563,7 +586,7 @@ mod tests {
     #[test]
     fn the_help_of_a_decimal_comma_keeps_the_sign() {
         let problem = read("-0,143").unwrap_err();
-        assert!(problem.help.unwrap().starts_with("Write `-0.143`."));
+        assert!(problem.help.unwrap().starts_with("Write `-0.143`;"));
     }
 
     #[test]

@@ -1,3 +1,4 @@
+use super::comma_to_point::{Pointed, commas_read, only_decimal_in_poles, settled};
 use super::decimal_commas::decimal_comma_between;
 use super::figure::parse_figure;
 use super::formula::read_transfer_function;
@@ -5,7 +6,10 @@ use super::poles::{MAX_POLES, ReadPole, parse_poles};
 use super::problem::{Problem, quote};
 use super::series::{parse_series, rows_as_text};
 use super::value::parse_value;
-use super::words::{NONLINEARITY_WORDS, SHAPE_WORDS, STABILITY_WORDS};
+use super::words::{
+    NONLINEARITY_WORDS, SHAPE_WORDS, STABILITY_WORDS, half_a_shape, nonlinearities_named, shapes_named,
+    stabilities_named,
+};
 use super::{
     Answer, AnswerSheet, AnswerValue, Attachments, Field, FieldKind, MAX_ATTACHMENT_BYTES, Submission,
     TypedComplex, Unreadable, nonlinearity_word, people, shape_word, stability_word,
@@ -329,18 +333,33 @@ impl<'a> Reader<'a> {
             FieldKind::Poles => self.poles(node).map(AnswerValue::Poles),
             FieldKind::Value => {
                 let text = scalar(node, "value.unreadable", "A single value is asked for here")?;
-                parse_value(text).map(AnswerValue::Value).map_err(|p| self.place(p, node))
+                let pointed =
+                    Pointed::read(text, 0, settled([text])).map_err(|problem| self.place(problem, node))?;
+                let value = parse_value(&pointed.text).map_err(|problem| self.place(problem, node))?;
+                self.say_commas(&pointed.places(node, self.text));
+                Ok(AnswerValue::Value(value))
             }
             FieldKind::Stability => {
-                word(node, "stability", "stability.unreadable", STABILITY_WORDS, stability_word)
-                    .map(AnswerValue::Stability)
+                let kind = Kind { name: "stability", code: "stability.unreadable", words: STABILITY_WORDS };
+                word(node, &kind, stability_word, stabilities_named).map(AnswerValue::Stability)
             }
             FieldKind::Shape => {
-                word(node, "a shape", "shape.unreadable", SHAPE_WORDS, shape_word).map(AnswerValue::Shape)
+                let kind = Kind { name: "a shape", code: "shape.unreadable", words: SHAPE_WORDS };
+                let read = word(node, &kind, shape_word, shapes_named);
+                read.map(AnswerValue::Shape).map_err(|finding| {
+                    match node.as_scalar().and_then(half_a_shape) {
+                        Some(help) => Box::new(finding.with_help(help)),
+                        None => finding,
+                    }
+                })
             }
             FieldKind::Nonlinearity => {
-                word(node, "a nonlinearity", "nonlinearity.unreadable", NONLINEARITY_WORDS, nonlinearity_word)
-                    .map(AnswerValue::Nonlinearity)
+                let kind = Kind {
+                    name: "a nonlinearity",
+                    code: "nonlinearity.unreadable",
+                    words: NONLINEARITY_WORDS,
+                };
+                word(node, &kind, nonlinearity_word, nonlinearities_named).map(AnswerValue::Nonlinearity)
             }
             FieldKind::Prose => prose(node).map(AnswerValue::Prose),
             FieldKind::Figure => {
@@ -357,38 +376,66 @@ impl<'a> Reader<'a> {
         Box::new(problem.into_finding(node, self.text))
     }
 
-    fn poles(&self, node: &Node) -> Result<Vec<TypedComplex>, Box<Finding>> {
-        let items = match &node.value {
-            Value::Sequence(items) => items.as_slice(),
-            _ => std::slice::from_ref(node),
+    fn say_commas(&mut self, places: &[(Span, String)]) {
+        commas_read(places, self.text).into_iter().for_each(|finding| self.findings.push(finding));
+    }
+
+    fn poles(&mut self, node: &Node) -> Result<Vec<TypedComplex>, Box<Finding>> {
+        let (items, entry) = match &node.value {
+            Value::Sequence(items) => (items.as_slice(), true),
+            _ => (std::slice::from_ref(node), false),
         };
         if let Some(finding) = decimal_comma_between(items, self.text, true) {
             return Err(Box::new(finding));
         }
-        let mut poles = Vec::new();
+        let settled = settled(items.iter().filter_map(Node::as_scalar));
+        let (mut poles, mut commas) = (Vec::new(), Vec::new());
         for item in items.iter().filter(|item| !is_blank(item)) {
-            poles.extend(self.pole(item)?);
+            poles.extend(self.pole(item, entry, settled, &mut commas)?);
             if poles.len() > MAX_POLES {
                 let message = format!("The list has more than the {MAX_POLES} poles we read.");
                 return Err(Box::new(Finding::error("poles.too_many", message).at(node.span)));
             }
         }
+        self.say_commas(&commas);
         Ok(poles)
     }
 
-    /// An entry of the list: text, or `{value: -1, multiplicity: 2}`.
-    fn pole(&self, item: &Node) -> Result<Vec<TypedComplex>, Box<Finding>> {
-        const HELP: &str = "Write a pole like `-2+3.1j`, or `{value: -1, multiplicity: 2}`.";
-        let typed = |read: ReadPole, node: &Node| TypedComplex {
+    /// One or more poles as text; `entry`: in a list of its own. Adds its decimal commas to `commas`.
+    fn poles_of(
+        &self,
+        node: &Node,
+        text: &str,
+        entry: bool,
+        settled: bool,
+        commas: &mut Vec<(Span, String)>,
+    ) -> Result<Vec<TypedComplex>, Box<Finding>> {
+        let pointed = match only_decimal_in_poles(text, entry) {
+            true => Pointed::read(text, 0, settled),
+            false => Pointed::as_typed(text),
+        };
+        let pointed = pointed.map_err(|problem| self.place(problem, node))?;
+        let read = parse_poles(&pointed.text).map_err(|problem| self.place(problem, node))?;
+        commas.extend(pointed.places(node, self.text));
+        let typed = |read: ReadPole| TypedComplex {
             span: node.locate(self.text, read.start, read.end),
             re: read.re,
             im: read.im,
         };
+        Ok(read.into_iter().map(typed).collect())
+    }
+
+    /// An entry of the list: text, or `{value: -1, multiplicity: 2}`.
+    fn pole(
+        &self,
+        item: &Node,
+        entry: bool,
+        settled: bool,
+        commas: &mut Vec<(Span, String)>,
+    ) -> Result<Vec<TypedComplex>, Box<Finding>> {
+        const HELP: &str = "Write a pole like `-2+3.1j`, or `{value: -1, multiplicity: 2}`.";
         match &item.value {
-            Value::Scalar(text) => {
-                let read = parse_poles(text).map_err(|p| self.place(p, item))?;
-                Ok(read.into_iter().map(|pole| typed(pole, item)).collect())
-            }
+            Value::Scalar(text) => self.poles_of(item, text, entry, settled, commas),
             Value::Mapping(entries) => {
                 let (mut value, mut times) = (None, 1);
                 for (key, span, node) in entries {
@@ -416,8 +463,7 @@ impl<'a> Reader<'a> {
                         Finding::error("poles.unreadable", "This pole has no `value`.").with_help(HELP);
                     return Err(Box::new(finding.at(item.span)));
                 };
-                let read = parse_poles(text).map_err(|p| self.place(p, node))?;
-                let once: Vec<_> = read.into_iter().map(|pole| typed(pole, node)).collect();
+                let once = self.poles_of(node, text, true, settled, commas)?;
                 Ok(once.iter().flat_map(|pole| std::iter::repeat_n(pole.clone(), times)).collect())
             }
             Value::Sequence(_) | Value::Null => {
@@ -474,22 +520,39 @@ fn scalar<'n>(node: &'n Node, code: &'static str, wanted: &str) -> Result<&'n st
     })
 }
 
+/// What one word is asked for.
+struct Kind {
+    name: &'static str,
+    code: &'static str,
+    words: &'static [&'static str],
+}
+
+/// `named`: what a text names, where it names several.
 fn word<T>(
     node: &Node,
-    wanted: &str,
-    code: &'static str,
-    words: &[&str],
+    kind: &Kind,
     read: impl Fn(&str) -> Option<T>,
+    named: impl Fn(&str) -> Vec<&'static str>,
 ) -> Result<T, Box<Finding>> {
+    let &Kind { name, code, words } = kind;
     let text =
-        scalar(node, code, &format!("A word for {} is asked for here", wanted.trim_start_matches("a ")))?;
+        scalar(node, code, &format!("A word for {} is asked for here", name.trim_start_matches("a ")))?;
     read(text).ok_or_else(|| {
-        let list = words.iter().map(|w| format!("`{w}`")).collect::<Vec<_>>().join(", ");
-        let help = match nearest(text.trim(), words.iter().copied()) {
-            Some(near) => format!("Did you mean `{near}`? These words are read: {list}."),
-            None => format!("Write one of {list}."),
+        let ticked = |words: &[&str], joint: &str| {
+            words.iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(joint)
         };
-        let message = format!("{} is not read as one word for {wanted}.", quote(text));
+        let named = named(text);
+        let (message, help) = if named.len() > 1 {
+            let message = format!("{} names more than one, and one is asked for.", quote(text));
+            (message, format!("Give one: {}.", ticked(&named, " or ")))
+        } else {
+            let list = ticked(words, ", ");
+            let help = match nearest(text.trim(), words.iter().copied()) {
+                Some(near) => format!("Did you mean `{near}`? These words are read: {list}."),
+                None => format!("Write one of {list}."),
+            };
+            (format!("{} is not read as one word for {name}.", quote(text)), help)
+        };
         Box::new(Finding::error(code, message).with_help(help).at(node.span))
     })
 }

@@ -1,6 +1,8 @@
 use super::problem::quote;
 use super::shape_name;
-use super::{Answer, AnswerSheet, AnswerValue, Decimal, Field, FinalValue, Series, Submission, TypedComplex};
+use super::{
+    Answer, AnswerSheet, AnswerValue, Decimal, Field, FieldKind, FinalValue, Series, Submission, TypedComplex,
+};
 use crate::algebra::to_f64;
 use crate::lti::{InputKind, Response, Shape, Stability, TransferFunction, roots, stability};
 use crate::source::Finding;
@@ -19,6 +21,7 @@ pub fn self_check(submission: &Submission, sheet: &AnswerSheet) -> Vec<Finding> 
         .fields
         .iter()
         .filter(|field| field.required && !submission.answers.contains_key(&field.path))
+        .filter(|field| !plotted_otherwise(field, submission, sheet))
         .map(missing)
         .collect();
     let mut systems: BTreeMap<&str, System<'_>> = BTreeMap::new();
@@ -29,6 +32,20 @@ pub fn self_check(submission: &Submission, sheet: &AnswerSheet) -> Vec<Finding> 
     }
     findings.extend(systems.values().flat_map(System::contradictions));
     findings
+}
+
+/// Figure and data of one question are alternatives: with one given, the other is not missing.
+fn plotted_otherwise(field: &Field, submission: &Submission, sheet: &AnswerSheet) -> bool {
+    let other = match field.kind {
+        FieldKind::Figure => FieldKind::Data,
+        FieldKind::Data => FieldKind::Figure,
+        _ => return false,
+    };
+    sheet.fields.iter().any(|given| {
+        given.kind == other
+            && given.question == field.question
+            && submission.answers.contains_key(&given.path)
+    })
 }
 
 fn missing(field: &Field) -> Finding {

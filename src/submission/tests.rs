@@ -1,7 +1,7 @@
 use super::*;
 use crate::algebra::parse_decimal;
 use crate::lti::{InputKind, Shape, Stability};
-use crate::source::Finding;
+use crate::source::{Finding, Severity};
 use proptest::prelude::*;
 
 /// Files in memory.
@@ -161,7 +161,7 @@ fn blanks_are_no_answers() {
 #[test]
 fn an_unreadable_value_costs_only_its_own_field() {
     for (path, value, code, marked, help) in [
-        ("low.transfer_function", "0,5 / (s + 1)", "transfer_function.unreadable", "0,5", "0.5"),
+        ("low.transfer_function", "1,500 / (s + 1)", "number.decimal_comma", "1,500", "`1.500` or `1500`"),
         (
             "low.transfer_function",
             "{num: [1], den: [0]}",
@@ -174,7 +174,32 @@ fn an_unreadable_value_costs_only_its_own_field() {
         ("low.response.poles", "{value: -1, times: x}", "poles.multiplicity", "x", "multiplicity: 2"),
         ("low.response.poles", "{val: -1}", "poles.unreadable", "val", "value"),
         ("low.response.poles", "[[-1, 2]]", "poles.unreadable", "[-1, 2]", "`-2+3.1j`"),
-        ("low.response.initial_value", "-0,143", "number.decimal_comma", "0,143", "`-0.143`"),
+        ("low.response.poles", "-1,5", "number.decimal_comma", "1,5", "`-1.5`"),
+        ("low.response.poles", "'-0,143, -0,0195 ± 5,59j'", "number.decimal_comma", "0,143", "`-0.143`"),
+        ("low.response.poles", "['5,568', '-2']", "number.decimal_comma", "5,568", "`5.568` or `5568`"),
+        ("low.response.initial_value", "1,000", "number.decimal_comma", "1,000", "`1.000` or `1000`"),
+        ("low.response.shape", "exponential", "shape.unreadable", "exponential", "grow or decay"),
+        (
+            "low.response.shape",
+            "an oscillation",
+            "shape.unreadable",
+            "an oscillation",
+            "`sustained oscillation`",
+        ),
+        (
+            "low.response.stability",
+            "marginal / stable",
+            "stability.unreadable",
+            "marginal / stable",
+            "Give one",
+        ),
+        (
+            "valve.nonlinearity",
+            "backlash / dead zone",
+            "nonlinearity.unreadable",
+            "backlash / dead zone",
+            "Give one: `backlash` or `dead zone`.",
+        ),
         ("low.response.initial_value", "[0]", "value.unreadable", "[0]", ""),
         ("low.response.stability", "maybe", "stability.unreadable", "maybe", "`stable`"),
         ("low.response.stability", "stabel", "stability.unreadable", "stabel", "Did you mean `stable`?"),
@@ -196,7 +221,7 @@ fn an_unreadable_value_costs_only_its_own_field() {
         let [finding] = submission.findings.as_slice() else { panic!("{value}: {:?}", submission.findings) };
         let answer = &submission.answers[path];
         assert_eq!(answer.value, Err(Unreadable { finding: finding.clone() }), "{value}");
-        assert_eq!(answer.text, value);
+        assert_eq!(answer.text, value.trim_matches('\''));
         let span = finding.span.unwrap();
         assert_eq!((finding.code, &text[span.start..span.end]), (code, marked), "{finding:?}");
         assert!(finding.help.as_deref().unwrap_or_default().contains(help), "{finding:?}");
@@ -241,6 +266,53 @@ fn yaml_types_do_not_matter() {
     }
     let shape = submit("answers: {low.response.shape: Damped sinusoid.}");
     assert_eq!(shape.answers["low.response.shape"].value, Ok(AnswerValue::Shape(Shape::DecayingOscillation)));
+}
+
+#[test]
+fn decimal_commas_are_read_and_said() {
+    for (path, value, read_as, marked) in [
+        ("low.response.initial_value", "0,0", "0.0", "0,0"),
+        ("low.response.initial_value", "-0,143 rad", "-0.143", "-0,143"),
+        ("low.response.poles", "-0,143", "-0.143", "-0,143"),
+        (
+            "low.response.poles",
+            "\"-0,1429; -0,0195 + 5,586j; -0,0195 - 5,586j\"",
+            "-0.1429, -0.0195 + 5.586j, -0.0195 - 5.586j",
+            "-0,1429",
+        ),
+        ("low.response.poles", "[-2, \"-0,143\", \"5,568\"]", "-2, -0.143, 5.568", "-0,143"),
+        ("low.response.poles", "[{value: \"-1,5\", multiplicity: 2}]", "-1.5, -1.5", "-1,5"),
+        ("low.transfer_function", "-0,06s / (s^2 + 5,568)", "-0.06s / (s^2 + 5.568)", "-0,06"),
+    ] {
+        let text = format!("lab: tank\nstudent: {{id: a}}\nanswers:\n  {path}: {value}\n");
+        let submission = submit(&text);
+        let [finding] = submission.findings.as_slice() else { panic!("{value}: {:?}", submission.findings) };
+        assert_eq!((finding.severity, finding.code), (Severity::Warning, "number.comma_read"));
+        let span = finding.span.unwrap();
+        assert_eq!(&text[span.start..span.end], marked, "{finding:?}");
+        assert_eq!(submission.answers[path].read_as(), read_as, "{value}");
+        assert_eq!(submission.answers[path].text, value.trim_matches('"'));
+    }
+}
+
+#[test]
+fn a_plot_is_not_asked_for_twice() {
+    let mut sheet = sheet();
+    for field in &mut sheet.fields {
+        if field.path.starts_with("low.response") {
+            field.question = "low.response".to_owned();
+            field.required = true;
+        }
+    }
+    let missing = |answers: &str| -> Vec<String> {
+        let text = format!("lab: tank\nstudent: {{id: a}}\nanswers: {{{answers}}}");
+        let submission = read("stem", "stem.yaml", text.as_bytes(), &sheet, &files());
+        let findings = self_check(&submission, &sheet).into_iter().map(|f| f.message);
+        findings.filter(|m| m.contains(".figure") || m.contains(".data")).collect()
+    };
+    assert_eq!(missing("").len(), 2);
+    assert_eq!(missing("low.response.figure: a.png"), [""; 0]);
+    assert_eq!(missing("low.response.data: a.csv"), [""; 0]);
 }
 
 #[test]

@@ -28,9 +28,6 @@ pub(super) fn parse_value(text: &str) -> Result<FinalValue, Problem> {
     };
     let digits_at = text.len() - unsigned.len();
     let rest = &unsigned[length..];
-    if let Some(problem) = decimal_comma(text, digits_at, length) {
-        return Err(problem);
-    }
     let number = number.map_err(|error| {
         Problem::new("value.unreadable", start, digits_at + length, format!("{error}.")).help(HELP)
     })?;
@@ -47,32 +44,6 @@ pub(super) fn parse_value(text: &str) -> Result<FinalValue, Problem> {
         .help("Give the value in SI units without prefix (rad, rad/s, m, s, V), or without a unit.")),
         Unit::Words => Err(unreadable(text.len() - rest.trim_start().len(), text.len())),
     }
-}
-
-/// A number whose whole part is followed by `,` and a digit: how to write it.
-pub(super) fn decimal_comma(text: &str, start: usize, length: usize) -> Option<Problem> {
-    let fraction = text[start + length..].strip_prefix(',')?;
-    let digits = fraction.bytes().take_while(u8::is_ascii_digit).count();
-    if digits == 0 || text[start..start + length].contains(['.', 'e', 'E']) {
-        return None;
-    }
-    let end = start + length + 1 + digits;
-    let minus = text[..start].trim_end().chars().next_back().is_some_and(is_minus);
-    let written = format!(
-        "{}{}.{}",
-        if minus { "-" } else { "" },
-        &text[start..start + length],
-        &text[start + length + 1..end]
-    );
-    Some(
-        Problem::new(
-            "number.decimal_comma",
-            start,
-            end,
-            format!("{} has a decimal comma, which is not read.", quote(&text[start..end])),
-        )
-        .help(format!("Write {}.", quote(&written))),
-    )
 }
 
 enum Unit {
@@ -336,9 +307,7 @@ mod tests {
     #[test]
     fn what_is_not_a_value_says_how_to_write_it() {
         for (text, code, marked, help) in [
-            ("0,143", "number.decimal_comma", "0,143", "`0.143`"),
-            ("-0,143", "number.decimal_comma", "0,143", "`-0.143`"),
-            ("about −2,5 rad", "number.decimal_comma", "2,5", "`-2.5`"),
+            ("1,000", "value.unreadable", ",000", "number"),
             ("5 degrees", "value.unit", "degrees", "SI"),
             ("5 ms", "value.unit", "ms", "SI"),
             ("5 apples", "value.unreadable", "apples", "number"),

@@ -17,12 +17,16 @@ pub enum NonlinearityKind {
 ///
 /// `None` when no class, or more than one, is named.
 pub fn nonlinearity_word(text: &str) -> Option<NonlinearityKind> {
-    or_without_contrast(text, nonlinearity)
+    let text = before_cause(text);
+    if several(named(text, SEPARATORS, nonlinearity)) {
+        None
+    } else {
+        or_without_contrast(text, nonlinearity)
+    }
 }
 
 fn nonlinearity(text: &str) -> Option<NonlinearityKind> {
-    // `a dead zone due to friction`: what follows is the cause.
-    let mut words = Words::new(text)?.before(&["due to", "because", "caused by", "owing to", "since"]);
+    let mut words = Words::new(text)?;
     if words.has_any(NEGATIONS) || words.has_any(HEDGES) {
         return None;
     }
@@ -48,6 +52,7 @@ pub fn stability_word(text: &str) -> Option<Stability> {
         // YAML's own words: `stability: no` can mean only one thing.
         "yes" | "true" => Some(Stability::AsymptoticallyStable),
         "no" | "false" => Some(Stability::Unstable),
+        _ if several(named(text, SEPARATORS, stability)) => None,
         _ => or_without_contrast(text, stability),
     }
 }
@@ -71,7 +76,22 @@ fn stability(text: &str) -> Option<Stability> {
 ///
 /// `None` when no shape, or more than one, is named.
 pub fn shape_word(text: &str) -> Option<Shape> {
-    or_without_contrast(text, shape)
+    // `underdamped, decaying exponentially` is one shape in two words; two names, or `/` and `or`, make two shapes.
+    let two =
+        several(named(text, SEPARATORS, shape_by_name)) || several(named(text, ALTERNATIVES, shape_of_part));
+    if two { None } else { or_without_contrast(text, shape) }
+}
+
+fn shape_by_name(text: &str) -> Option<Shape> {
+    let words: Vec<String> = Words::new(text)?.iter().map(str::to_owned).collect();
+    shape(text).filter(|shape| words.join(" ") == shape_name(*shape))
+}
+
+/// As [`shape`]; but `sustained` alone, beside `constant oscillation`, is no constant.
+fn shape_of_part(text: &str) -> Option<Shape> {
+    let constant = text.to_lowercase();
+    let constant = constant.contains("constant") || constant.contains("flat");
+    shape(text).filter(|shape| *shape != Shape::Constant || constant)
 }
 
 fn shape(text: &str) -> Option<Shape> {
@@ -151,6 +171,95 @@ fn shape(text: &str) -> Option<Shape> {
         (false, false, true) if !no_decay && !exponential && !polynomial => Some(Shape::Constant),
         _ => None,
     }
+}
+
+/// The classes of a nonlinearity a text names beside each other: `backlash / dead zone`.
+pub(super) fn nonlinearities_named(text: &str) -> Vec<&'static str> {
+    named(before_cause(text), SEPARATORS, nonlinearity).into_iter().map(nonlinearity_name).collect()
+}
+
+/// As [`nonlinearities_named`], in the words that are taught.
+pub(super) fn stabilities_named(text: &str) -> Vec<&'static str> {
+    let word = |stability| match stability {
+        Stability::AsymptoticallyStable => STABILITY_WORDS[0],
+        Stability::MarginallyStable => STABILITY_WORDS[1],
+        Stability::Unstable => STABILITY_WORDS[2],
+    };
+    named(text, SEPARATORS, stability).into_iter().map(word).collect()
+}
+
+/// As [`nonlinearities_named`].
+pub(super) fn shapes_named(text: &str) -> Vec<&'static str> {
+    named(text, SEPARATORS, shape_of_part).into_iter().map(shape_name).collect()
+}
+
+/// Half a shape: what is missing in `exponential` and in `oscillation`.
+pub(super) fn half_a_shape(text: &str) -> Option<&'static str> {
+    const FILLERS: &[&str] = &[
+        "a",
+        "an",
+        "the",
+        "it",
+        "is",
+        "response",
+        "curve",
+        "function",
+        "shape",
+        "behaviour",
+        "behavior",
+        "like",
+    ];
+    let words = Words::new(text)?;
+    let mut words = words.iter().filter(|word| !FILLERS.contains(word));
+    match (words.next()?, words.next()) {
+        ("exponential" | "exponentially" | "exponentials", None) => {
+            Some("Does it grow or decay? Write `exponential growth` or `exponential decay`.")
+        }
+        (word, None)
+            if ["oscillat", "sinusoid", "swing", "sine"].iter().any(|stem| word.starts_with(stem)) =>
+        {
+            Some(
+                "Does it grow, decay or stay? Write `growing oscillation`, `decaying oscillation` or `sustained oscillation`.",
+            )
+        }
+        _ => None,
+    }
+}
+
+/// What the parts of a text between the separators are read as, each once, in the order of the text.
+fn named<T: PartialEq>(text: &str, separators: &[&str], read: impl Fn(&str) -> Option<T>) -> Vec<T> {
+    let mut found = Vec::new();
+    // Longer than any answer in a word.
+    if text.len() > 400 {
+        return found;
+    }
+    let mut flat = format!(" {} ", text.to_lowercase());
+    for separator in separators {
+        flat = flat.replace(separator, " \n ");
+    }
+    for part in flat.split('\n').filter_map(read) {
+        if !found.contains(&part) {
+            found.push(part);
+        }
+    }
+    found
+}
+
+fn several<T>(named: Vec<T>) -> bool {
+    named.len() > 1
+}
+
+/// Between two answers of which one is meant.
+const ALTERNATIVES: &[&str] = &["/", "|", " or "];
+/// Between two answers.
+const SEPARATORS: &[&str] = &["/", "|", " or ", ",", ";", "&", "+", " and ", " as well as "];
+
+/// `a dead zone due to friction` without the cause.
+fn before_cause(text: &str) -> &str {
+    // In ASCII, so that bytes stay where they are.
+    let lower = text.to_ascii_lowercase();
+    let causes = [" due to ", " because ", " caused by ", " owing to ", " since "];
+    &text[..causes.iter().filter_map(|cause| lower.find(cause)).min().unwrap_or(text.len())]
 }
 
 /// What `read` makes of the text, or of the text without what it only sets itself apart from.
@@ -392,14 +501,6 @@ impl Words {
         }
         found
     }
-
-    /// The words before the first of the phrases.
-    fn before(mut self, phrases: &[&str]) -> Self {
-        if let Some(at) = phrases.iter().filter_map(|phrase| self.find(phrase)).min() {
-            self.0.truncate(at + 1);
-        }
-        self
-    }
 }
 
 /// The only kind named, if there is exactly one.
@@ -452,6 +553,12 @@ mod tests {
                 ("conditionally stable", None),
                 ("marginally unstable", None),
                 ("stable or unstable", None),
+                ("stable / unstable", None),
+                ("stable, unstable", None),
+                ("marginal / stable", None),
+                ("marginally/critically stable", Some(MarginallyStable)),
+                ("not stable, unstable", Some(Unstable)),
+                ("unstable, not stable", Some(Unstable)),
                 ("stable | marginally stable | unstable", None),
                 ("stable if the gain is small", None),
                 ("first stable, then unstable", None),
@@ -505,6 +612,17 @@ mod tests {
                 ("not saturation but dead zone", Some(DeadZone)),
                 ("dead zone, not saturation", Some(DeadZone)),
                 ("saturation or dead zone", None),
+                ("backlash / dead zone", None),
+                ("dead zone / backlash", None),
+                ("backlash/deadband", None),
+                ("backlash, saturation", None),
+                ("saturation; backlash", None),
+                ("backlash & dead zone", None),
+                ("backlash, i.e. gear play", Some(Backlash)),
+                ("backlash / play", Some(Backlash)),
+                ("dead-zone/deadband", Some(DeadZone)),
+                ("dead zone due to friction, and to the brushes", Some(DeadZone)),
+                ("dead zone, because of static friction", Some(DeadZone)),
                 ("dead zone and saturation", None),
                 ("not a dead zone", None),
                 ("no backlash", None),
@@ -556,6 +674,13 @@ mod tests {
                 ("flat", Some(Constant)),
                 ("not a sustained but a decaying oscillation", Some(DecayingOscillation)),
                 ("wave that becomes smaller", Some(DecayingOscillation)),
+                ("decaying oscillation / exponential decay", None),
+                ("decaying oscillation or exponential decay", None),
+                ("decaying oscillation, exponential decay", None),
+                ("Exponential growth, growing oscillation", None),
+                ("underdamped, decaying exponentially", Some(DecayingOscillation)),
+                ("sustained/undamped oscillation", Some(SustainedOscillation)),
+                ("diverging, growing oscillation", Some(GrowingOscillation)),
                 ("exponential", None),
                 ("oscillation", None),
                 ("decaying", None),
@@ -567,6 +692,29 @@ mod tests {
                 ("", None),
             ],
         );
+    }
+
+    #[test]
+    fn two_answers_are_named() {
+        assert_eq!(nonlinearities_named("Backlash / dead zone"), ["backlash", "dead zone"]);
+        assert_eq!(nonlinearities_named("saturation, backlash or saturation"), ["saturation", "backlash"]);
+        assert_eq!(stabilities_named("marginal / stable"), ["marginally stable", "stable"]);
+        assert_eq!(shapes_named("ramp or constant"), ["polynomial growth", "constant"]);
+        assert_eq!(shapes_named("decaying oscillation"), ["decaying oscillation"]);
+    }
+
+    #[test]
+    fn half_a_shape_is_asked_about() {
+        for (text, half) in [
+            ("exponential", true),
+            ("An exponential curve.", true),
+            ("oscillates", true),
+            ("decaying", false),
+            ("exponential oscillation", false),
+            ("", false),
+        ] {
+            assert_eq!(half_a_shape(text).is_some(), half, "{text}");
+        }
     }
 
     #[test]
