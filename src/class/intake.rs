@@ -9,6 +9,8 @@ pub struct AnswerFile {
     pub name: String,
     /// File stem, made unique within the class: `blank`, `blank-2`.
     pub id: String,
+    /// Whether a link is followed: when the caller named it, not when it lay in a folder of other people's files.
+    pub followed: bool,
 }
 
 /// What was asked for cannot be found: the caller's fault.
@@ -24,8 +26,9 @@ pub enum IntakeError {
 
 /// The answer files among `paths`, in a fixed order: as given, folders by name within.
 ///
-/// A file that is named is taken whatever it is called; in folders only `.yaml` and `.yml` count, hidden files and
-/// `leave_out` (the marks file) do not. Links to folders are not followed.
+/// A file that is named is taken whatever it is called. In folders `.yaml` and `.yml` count, also with the `.txt` that
+/// Windows appends and hides; hidden files and `leave_out` (the marks file) do not. Links are not followed: a link to
+/// a file is an answer file that cannot be read.
 pub fn find_answer_files(
     paths: &[PathBuf],
     leave_out: Option<&Path>,
@@ -37,10 +40,16 @@ pub fn find_answer_files(
     for path in paths {
         let found = if path.is_dir() { in_folder(path)? } else { vec![path.clone()] };
         for file in found {
-            let Ok(canonical) = file.canonicalize() else {
+            // A link in a folder stands for itself, wherever it points.
+            let place = if file.is_symlink() && *path != file {
+                std::path::absolute(&file).ok()
+            } else {
+                file.canonicalize().ok()
+            };
+            let Some(place) = place else {
                 return Err(IntakeError::Missing { path: file });
             };
-            if leave_out.as_ref() == Some(&canonical) || !seen.insert(canonical) {
+            if leave_out.as_ref() == Some(&place) || !seen.insert(place) {
                 continue;
             }
             let relative = file.strip_prefix(path).ok().filter(|p| !p.as_os_str().is_empty());
@@ -48,8 +57,10 @@ pub fn find_answer_files(
                 Some(relative) => relative.to_string_lossy().replace('\\', "/"),
                 None => file.file_name().unwrap_or_default().to_string_lossy().into_owned(),
             };
-            let stem = file.file_stem().unwrap_or_default().to_string_lossy();
-            files.push(AnswerFile { id: ids.claim(&stem), name, path: file });
+            let file_name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            let stem = answer_stem(&file_name).unwrap_or(&file_name);
+            let followed = *path == file;
+            files.push(AnswerFile { id: ids.claim(stem), name, path: file, followed });
         }
     }
     Ok(files)
@@ -62,8 +73,7 @@ fn in_folder(folder: &Path) -> Result<Vec<PathBuf>, IntakeError> {
     };
     for entry in walkdir::WalkDir::new(folder).sort_by_file_name().into_iter().filter_entry(visible) {
         let entry = entry.map_err(|error| IntakeError::Unreadable { path: folder.to_path_buf(), error })?;
-        let extension = entry.path().extension().map(|e| e.to_string_lossy().to_lowercase());
-        if entry.path().is_file() && matches!(extension.as_deref(), Some("yaml" | "yml")) {
+        if !entry.file_type().is_dir() && answer_stem(&entry.file_name().to_string_lossy()).is_some() {
             found.push(entry.into_path());
         }
     }
@@ -71,6 +81,16 @@ fn in_folder(folder: &Path) -> Result<Vec<PathBuf>, IntakeError> {
         return Err(IntakeError::NoAnswers { path: folder.to_path_buf() });
     }
     Ok(found)
+}
+
+/// What stands before `.yaml` or `.yml`, in capitals or not, and before a `.txt` behind them; `None` for other files.
+fn answer_stem(name: &str) -> Option<&str> {
+    let without = |name: &'_ str, ending: &str| {
+        let at = name.len().checked_sub(ending.len())?;
+        name.get(at..)?.eq_ignore_ascii_case(ending).then_some(at)
+    };
+    let name = without(name, ".txt").map_or(name, |at| &name[..at]);
+    [".yaml", ".yml"].iter().find_map(|ending| without(name, ending)).map(|at| &name[..at])
 }
 
 /// Gives out names that are safe as file names everywhere and differ by more than case.
@@ -149,7 +169,7 @@ mod tests {
     #[test]
     fn folders_are_walked_in_order_and_the_marks_file_is_left_out() {
         let folder = tempfile::tempdir().unwrap();
-        for name in ["b.yaml", "a.yml", "notes.txt", ".hidden.yaml", "marks.yaml"] {
+        for name in ["b.yaml", "a.yml", "notes.txt", ".hidden.yaml", "marks.yaml", "c.YAML.txt"] {
             std::fs::write(folder.path().join(name), "x: 1").unwrap();
         }
         std::fs::create_dir(folder.path().join("late")).unwrap();
@@ -157,7 +177,7 @@ mod tests {
         let marks = folder.path().join("marks.yaml");
         let found = find_answer_files(&[folder.path().to_path_buf()], Some(&marks)).unwrap();
         let shown: Vec<(&str, &str)> = found.iter().map(|f| (f.name.as_str(), f.id.as_str())).collect();
-        assert_eq!(shown, [("a.yml", "a"), ("b.yaml", "b"), ("late/b.yaml", "b-2")]);
+        assert_eq!(shown, [("a.yml", "a"), ("b.yaml", "b"), ("c.YAML.txt", "c"), ("late/b.yaml", "b-2")]);
     }
 
     #[test]

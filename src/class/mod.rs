@@ -7,6 +7,7 @@ mod outcome;
 mod results;
 mod run;
 mod statistics;
+mod students_seen;
 
 pub use intake::{AnswerFile, IntakeError, find_answer_files};
 pub use marked::Marked;

@@ -11,4 +11,8 @@ pub struct Outcome {
     pub possible: f64,
     /// Ids in the marks file that nobody in the class has.
     pub marks_without_submission: Vec<String>,
+    /// (id, files) of student ids that more than one file gives.
+    pub ids_given_twice: Vec<(String, Vec<String>)>,
+    /// Reports of an earlier run that still lie in the folder.
+    pub older_reports: usize,
 }

@@ -4,6 +4,7 @@ use super::marked::{Marked, our_failure, unmarked, unreadable_submission};
 use super::outcome::Outcome;
 use super::results::results_line;
 use super::statistics::Statistics;
+use super::students_seen::StudentsSeen;
 use crate::grading::{HandMarksFile, grade};
 use crate::lab::LabDefinition;
 use crate::reference::Reference;
@@ -47,8 +48,13 @@ pub enum ClassError {
 }
 
 /// At most a little more than an answer file may hold, so that a huge one is refused without being read.
+///
+/// Errors: also for what is no plain file; a pipe could keep us waiting for ever.
 pub fn read_capped(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
+    if !std::fs::metadata(path)?.is_file() {
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "not a plain file"));
+    }
     std::fs::File::open(path)?.take(READ_LIMIT).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
@@ -68,6 +74,7 @@ pub fn grade_class(job: &ClassJob<'_>, progress: &dyn Fn(usize)) -> Result<Outco
     let mut gradebook = Gradebook::new(gradebook_file.file.as_file(), job.lab)?;
     let mut statistics = Statistics::new(job.lab);
     let mut names = UniqueNames::default();
+    let mut seen = StudentsSeen::default();
     let mut done = 0;
 
     for group in job.files.chunks(GROUP) {
@@ -81,7 +88,8 @@ pub fn grade_class(job: &ClassJob<'_>, progress: &dyn Fn(usize)) -> Result<Outco
         // Names depend on who came before, so they are given in order.
         let named: Vec<(Submission, String)> = submissions
             .into_iter()
-            .map(|submission| {
+            .map(|mut submission| {
+                seen.add(&mut submission);
                 let name = names.claim(&report_stem(&submission));
                 (submission, format!("reports/{name}.html"))
             })
@@ -108,12 +116,21 @@ pub fn grade_class(job: &ClassJob<'_>, progress: &dyn Fn(usize)) -> Result<Outco
     gradebook.finish().map_err(|error| ClassError::Write { path: gradebook_file.path.clone(), error })?;
     gradebook_file.finish()?;
     let mut outcome = statistics.outcome();
+    outcome.ids_given_twice = seen.given_twice();
+    outcome.older_reports = older_reports(job.out, &statistics);
     if let Some(marks) = job.marks {
         outcome.marks_without_submission = statistics.absent(marks.student_ids());
     }
     let index = NewFile::create(job.out.join("index.html"))?;
     index.write_all(job.kit.class_page(&statistics.summary(job.lab)).as_bytes())?;
     Ok(outcome)
+}
+
+/// Reports in the folder that this run did not write: of an earlier run, so possibly out of date.
+fn older_reports(out: &Path, statistics: &Statistics) -> usize {
+    let Ok(entries) = std::fs::read_dir(out.join("reports")) else { return 0 };
+    let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    names.filter(|name| name.ends_with(".html") && !statistics.has_report(&format!("reports/{name}"))).count()
 }
 
 /// Group members who were given different marks by hand (a viva each, say) are marked and reported one by one.
@@ -142,12 +159,26 @@ fn read_submission(lab: &LabDefinition, file: &AnswerFile) -> Submission {
         }
         Err(error) => unreadable_submission(&file.id, &file.name, not_opened(&error)),
     };
-    let mut submission = catch_unwind(AssertUnwindSafe(read))
-        .unwrap_or_else(|_| unreadable_submission(&file.id, &file.name, our_failure()));
+    let mut submission = if file.path.is_symlink() && !file.followed {
+        unreadable_submission(&file.id, &file.name, is_a_link())
+    } else {
+        catch_unwind(AssertUnwindSafe(read))
+            .unwrap_or_else(|_| unreadable_submission(&file.id, &file.name, our_failure()))
+    };
     if submission.students.is_empty() {
         submission.students.push(Student { id: file.id.clone(), name: String::new() });
     }
     submission
+}
+
+fn is_a_link() -> Finding {
+    Finding {
+        severity: Severity::Error,
+        code: "file.link",
+        message: "This is a link to another file, which is not followed.".to_owned(),
+        help: Some("Hand in the file itself.".to_owned()),
+        span: None,
+    }
 }
 
 fn not_opened(error: &io::Error) -> Finding {

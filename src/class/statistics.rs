@@ -12,6 +12,7 @@ pub struct Statistics {
     /// Points earned by all, per question of the lab.
     earned: Vec<Points>,
     student_ids: BTreeSet<String>,
+    reports: BTreeSet<String>,
     outcome: Outcome,
     total: Points,
 }
@@ -23,6 +24,7 @@ impl Statistics {
             review: Vec::new(),
             earned: vec![Points::ZERO; lab.questions.len()],
             student_ids: BTreeSet::new(),
+            reports: BTreeSet::new(),
             outcome: Outcome::default(),
             total: Points::ZERO,
         }
@@ -35,6 +37,7 @@ impl Statistics {
         }
         self.total += card.total.earned;
         self.student_ids.extend(submission.students.iter().map(|s| s.id.clone()));
+        self.reports.insert(marked.report.clone());
         self.outcome.submissions += 1;
         self.outcome.possible = card.total.possible.as_f64();
         self.outcome.unreadable += usize::from(!submission.readable);
@@ -77,6 +80,11 @@ impl Statistics {
     /// Which of `ids` nobody in the class has.
     pub fn absent<'a>(&self, ids: impl Iterator<Item = &'a str>) -> Vec<String> {
         ids.filter(|id| !self.student_ids.contains(*id)).map(str::to_owned).collect()
+    }
+
+    /// Whether this run wrote the report of this name, relative to the output folder.
+    pub fn has_report(&self, report: &str) -> bool {
+        self.reports.contains(report)
     }
 
     /// At least 1, so that a mean over nobody is 0.

@@ -61,9 +61,8 @@ fn check_file(lab: &LabDefinition, path: &Path) -> Result<(String, bool), Failur
     let wrong = others.iter().filter(|f| f.severity != Severity::Note).count();
     let name = sanitize(&path.to_string_lossy());
     let counts = format!(
-        "{} of {} answers read, {} to mend, {} blank",
+        "{} answers read, {} to look at, {} still blank",
         submission.answers.values().filter(|a| a.value.is_ok()).count(),
-        lab.sheet.fields.len(),
         wrong,
         missing.len()
     );

@@ -90,17 +90,36 @@ fn progress_bar(submissions: usize) -> ProgressBar {
 fn summary(outcome: &Outcome, out: &Path) -> String {
     let shown = |name: &str| sanitize(&out.join(name).to_string_lossy());
     let mut text = format!(
-        "{} submissions marked, mean {:.1} of {} points\n",
-        outcome.submissions, outcome.mean_earned, outcome.possible
+        "{} marked, mean {:.1} of {} points\n",
+        counted(outcome.submissions, "submission", "submissions"),
+        outcome.mean_earned,
+        outcome.possible
     );
-    for (count, words) in [
-        (outcome.unreadable, "could not be read: see their reports"),
-        (outcome.to_review, "have marks for a person to confirm"),
-        (outcome.failed, "made polemark fail and are left to a person: please report this"),
+    for (count, one, many) in [
+        (outcome.unreadable, "could not be read: see its report", "could not be read: see their reports"),
+        (
+            outcome.to_review,
+            "has marks for a person to confirm or to give",
+            "have marks for a person to confirm or to give",
+        ),
+        (
+            outcome.failed,
+            "made polemark fail and is left to a person: please report this",
+            "made polemark fail and are left to a person: please report this",
+        ),
+        (
+            outcome.older_reports,
+            "report of an earlier run is still in the folder",
+            "reports of an earlier run are still in the folder",
+        ),
     ] {
         if count > 0 {
-            text.push_str(&format!("  {count} {words}\n"));
+            text.push_str(&format!("  {}\n", counted(count, one, many)));
         }
+    }
+    for (id, files) in &outcome.ids_given_twice {
+        let files: Vec<_> = files.iter().map(|file| sanitize(file)).collect();
+        text.push_str(&format!("  several files give the id `{}`: {}\n", sanitize(id), files.join(", ")));
     }
     for id in &outcome.marks_without_submission {
         text.push_str(&format!("  the marks file has marks for `{}`, who handed nothing in\n", sanitize(id)));
@@ -111,4 +130,8 @@ fn summary(outcome: &Outcome, out: &Path) -> String {
         text.push_str(&format!("  {what}: {}\n", shown(name)));
     }
     text
+}
+
+fn counted(count: usize, one: &str, many: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
 }

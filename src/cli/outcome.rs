@@ -2,6 +2,7 @@ use crate::class::{ClassError, IntakeError};
 use crate::lab::{LabDefinition, LoadError};
 use crate::reference::{Reference, ReferenceError};
 use crate::report::ReportError;
+use crate::source::sanitize;
 use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -16,8 +17,8 @@ pub const OURS: u8 = 2;
 pub enum Failure {
     #[error("{}", load_error(.0))]
     Load(LoadError),
-    #[error("error: {0}")]
-    Reference(#[from] ReferenceError),
+    #[error("error: {error}\n --> {lab}")]
+    Reference { lab: String, error: ReferenceError },
     #[error("error: {0}")]
     Report(#[from] ReportError),
     #[error("error: {0}")]
@@ -40,7 +41,7 @@ impl Failure {
     pub fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self {
             Self::Load(LoadError::Invalid(_) | LoadError::NotText { .. })
-            | Self::Reference(_)
+            | Self::Reference { .. }
             | Self::Marks { .. } => THEIRS,
             _ => OURS,
         })
@@ -64,7 +65,8 @@ pub fn load_lab(lab: Option<&str>) -> Result<LabDefinition, Failure> {
 
 pub fn load_with_reference(lab: Option<&str>) -> Result<(LabDefinition, Reference), Failure> {
     let lab = load_lab(lab)?;
-    let reference = Reference::compute(&lab)?;
+    let reference = Reference::compute(&lab)
+        .map_err(|error| Failure::Reference { lab: sanitize(&lab.text.name), error })?;
     Ok((lab, reference))
 }
 

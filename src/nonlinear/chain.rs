@@ -1,4 +1,5 @@
 use super::{Nonlinearity, Signal};
+use crate::algebra::significant;
 
 /// One block of a chain, in the order the signal passes.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,11 +25,11 @@ pub enum ChainError {
     Improper { index: usize, num: usize, den: usize },
     #[error("block {index} has a denominator of zero")]
     ZeroDenominator { index: usize },
-    #[error("the simulation left the range of numbers at t = {time_s} s")]
+    #[error("the simulation left the range of numbers at t = {} s", significant(*time_s, 6))]
     NotFinite { time_s: f64 },
-    #[error("more than {limit} switchings before t = {time_s} s")]
+    #[error("more than {limit} switchings before t = {} s", significant(*time_s, 6))]
     TooManySwitches { limit: usize, time_s: f64 },
-    #[error("more than {limit} steps before t = {time_s} s")]
+    #[error("more than {limit} steps before t = {} s", significant(*time_s, 6))]
     TooManySteps { limit: usize, time_s: f64 },
 }
 

@@ -1,3 +1,4 @@
+use crate::algebra::significant;
 /// The solution of an initial value problem on 0..=end, as one polynomial a step: values at any time between.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trajectory {
@@ -33,11 +34,11 @@ impl Trajectory {
 
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum OdeError {
-    #[error("more than {limit} steps before t = {time_s} s")]
+    #[error("more than {limit} steps before t = {} s", significant(*time_s, 6))]
     StepLimit { limit: usize, time_s: f64 },
-    #[error("the solution left the range of numbers at t = {time_s} s")]
+    #[error("the solution left the range of numbers at t = {} s", significant(*time_s, 6))]
     NotFinite { time_s: f64 },
-    #[error("the step size fell below what numbers resolve at t = {time_s} s")]
+    #[error("the step size fell below what numbers resolve at t = {} s", significant(*time_s, 6))]
     StepTooSmall { time_s: f64 },
 }
 

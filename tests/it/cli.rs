@@ -224,7 +224,7 @@ fn the_template_is_blank_and_welcome() {
     let named = template.replacen("  id:\n  name:\n", "  id: EE-1\n  name: A. Student\n", 1);
     let file = bench.write("answers.yaml", &named);
     let checked = bench.run(&["check", &file.to_string_lossy()]).ends_with(0).out;
-    assert!(checked.contains("0 of "), "{checked}");
+    assert!(checked.contains("0 answers read, 0 to look at"), "{checked}");
     // A file that may hold answers is never overwritten.
     bench.run(&["new", "--out", "answers.yaml"]).ends_with(2);
     assert_eq!(std::fs::read_to_string(&file).expect("still there"), named);
@@ -341,4 +341,48 @@ fn members_of_a_group_keep_their_own_marks_by_hand() {
     let wanted = [("EE-1", "30"), ("EE-2", "12")].map(|(id, points)| (id.to_owned(), points.to_owned()));
     assert_eq!(vivas, wanted);
     assert!(bench.path("out/reports/EE-1.html").exists() && bench.path("out/reports/EE-2.html").exists());
+}
+
+/// A link in a folder of other people's files could quote any file of this machine in a report.
+#[cfg(unix)]
+#[test]
+fn links_and_pipes_are_reported_not_followed() {
+    let bench = Bench::new();
+    bench.write("class/a.yaml", "lab: ee361-lab3\nstudent: {id: EE-1, name: A. Student}\nanswers:\n");
+    let secret = bench.write("secret.txt", "root: hunter2\n");
+    std::os::unix::fs::symlink(&secret, bench.path("class/link.yaml")).expect("linked");
+    std::os::unix::fs::symlink("nowhere", bench.path("class/dangling.yaml")).expect("linked");
+    let pipe = bench.path("class/pipe.yaml");
+    assert!(Command::new("mkfifo").arg(&pipe).status().expect("mkfifo runs").success());
+    let ran = bench.run(&["grade", "class", "--out", "out"]).ends_with(0);
+    assert!(ran.out.contains("4 submissions") && ran.out.contains("3 could not be read"), "{}", ran.out);
+    for bytes in files_below(&bench.path("out")).values() {
+        assert!(!String::from_utf8_lossy(bytes).contains("hunter2"));
+    }
+    bench.run(&["check", "class/pipe.yaml"]).ends_with(2);
+}
+
+#[test]
+fn ids_given_twice_and_old_reports_are_said() {
+    let bench = Bench::new();
+    for name in ["class/a.yaml", "class/b.yaml.txt"] {
+        bench.write(name, "lab: ee361-lab3\nstudent: {id: EE-1, name: A. Student}\nanswers:\n");
+    }
+    let first = bench.run(&["grade", "class", "--out", "out"]).ends_with(0).out;
+    assert!(first.contains("several files give the id `EE-1`: a.yaml, b.yaml.txt"), "{first}");
+    let results = std::fs::read_to_string(bench.path("out/results.jsonl")).expect("written");
+    assert_eq!(results.matches("student.twice").count(), 1);
+    let second = bench.run(&["grade", "class/a.yaml", "--out", "out"]).ends_with(0).out;
+    assert!(second.contains("1 report of an earlier run is still in the folder"), "{second}");
+}
+
+#[test]
+fn a_lab_that_cannot_be_computed_says_which_and_why() {
+    let bench = Bench::new();
+    let lab = bench.write(
+        "lab.yaml",
+        &embedded_lab().replace("{limit: 5}", "{limit: 5e-324}").replace("duration_s: 12", "duration_s: 1e9"),
+    );
+    let ran = bench.run(&["verify", &lab.to_string_lossy()]).ends_with(1);
+    assert!(ran.err.contains("simulation `backlash`") && ran.err.contains("lab.yaml"), "{}", ran.err);
 }

@@ -1,0 +1,37 @@
+use crate::source::{Finding, Severity, sanitize};
+use crate::submission::Submission;
+use std::collections::BTreeMap;
+
+/// Which student ids have come up, and in which files: two files under one id are for a person to sort out.
+#[derive(Debug, Default)]
+pub struct StudentsSeen {
+    files: BTreeMap<String, Vec<String>>,
+}
+
+impl StudentsSeen {
+    /// Notes who `submission` is from; an id that was there before becomes a finding.
+    pub fn add(&mut self, submission: &mut Submission) {
+        for student in &submission.students {
+            let files = self.files.entry(student.id.clone()).or_default();
+            if !files.is_empty() {
+                submission.findings.push(Finding {
+                    severity: Severity::Warning,
+                    code: "student.twice",
+                    message: format!(
+                        "Another file of this class gives the same student id, `{}`. A person has to say which counts.",
+                        sanitize(&student.id)
+                    ),
+                    help: None,
+                    span: None,
+                });
+            }
+            files.push(submission.source.name.clone());
+        }
+    }
+
+    /// (id, files) of every id that more than one file gives.
+    pub fn given_twice(&self) -> Vec<(String, Vec<String>)> {
+        let twice = self.files.iter().filter(|(_, files)| files.len() > 1);
+        twice.map(|(id, files)| (id.clone(), files.clone())).collect()
+    }
+}
