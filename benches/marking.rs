@@ -6,7 +6,7 @@
 //! ```
 
 use divan::{Bencher, black_box};
-use polemark::grading::{Scorecard, grade};
+use polemark::grading::{Catalogue, Scorecard, grade};
 use polemark::lab::{self, LabDefinition};
 use polemark::reference::Reference;
 use polemark::report::ReportKit;
@@ -21,13 +21,14 @@ static LAB: LazyLock<LabDefinition> =
     LazyLock::new(|| lab::load(lab::DEFAULT).expect("the embedded lab parses"));
 static REFERENCE: LazyLock<Reference> =
     LazyLock::new(|| Reference::compute(&LAB).expect("the embedded lab has a reference"));
+static CATALOGUE: LazyLock<Catalogue> = LazyLock::new(|| Catalogue::new(&LAB, &REFERENCE));
 static KIT: LazyLock<ReportKit> =
     LazyLock::new(|| ReportKit::new(&LAB, &REFERENCE).expect("the embedded lab's figures can be drawn"));
 static SUBMISSION: LazyLock<Submission> = LazyLock::new(|| {
     let text = include_bytes!("../submissions/letters.yaml");
     read("letters", "letters.yaml", text, &LAB.sheet, &NoFiles)
 });
-static CARD: LazyLock<Scorecard> = LazyLock::new(|| grade(&LAB, &REFERENCE, &SUBMISSION, None));
+static CARD: LazyLock<Scorecard> = LazyLock::new(|| grade(&LAB, &REFERENCE, &CATALOGUE, &SUBMISSION, None));
 
 #[divan::bench_group(name = "once a lab")]
 mod once_a_lab {
@@ -41,6 +42,12 @@ mod once_a_lab {
     #[divan::bench]
     fn compute_reference(bencher: Bencher<'_, '_>) {
         bencher.bench(|| Reference::compute(black_box(&LAB)));
+    }
+
+    #[divan::bench]
+    fn list_mistakes(bencher: Bencher<'_, '_>) {
+        LazyLock::force(&REFERENCE);
+        bencher.bench(|| Catalogue::new(black_box(&LAB), &REFERENCE));
     }
 
     #[divan::bench]
@@ -68,8 +75,8 @@ mod once_a_student {
 
     #[divan::bench]
     fn grade_answers(bencher: Bencher<'_, '_>) {
-        LazyLock::force(&REFERENCE);
-        bencher.bench(|| grade(&LAB, &REFERENCE, black_box(&SUBMISSION), None));
+        LazyLock::force(&CATALOGUE);
+        bencher.bench(|| grade(&LAB, &REFERENCE, &CATALOGUE, black_box(&SUBMISSION), None));
     }
 
     #[divan::bench]

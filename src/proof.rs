@@ -1,7 +1,7 @@
 //! A lab proves itself: its key agrees with stated values and with a second route, its model answer earns everything,
 //! a blank nothing.
 
-use crate::grading::{ItemScore, Verdict, grade};
+use crate::grading::{Catalogue, ItemScore, Verdict, grade};
 use crate::lab::{LabDefinition, Points};
 use crate::reference::{Reference, check_expectations, second_route};
 use crate::source::SourceText;
@@ -106,7 +106,7 @@ fn model_answer_reads(lab: &LabDefinition) -> Check {
 }
 
 fn model_answer_earns_everything(lab: &LabDefinition, reference: &Reference) -> Vec<Check> {
-    let card = grade(lab, reference, &lab.model_answer, None);
+    let card = grade(lab, reference, &Catalogue::default(), &lab.model_answer, None);
     let items: Vec<&ItemScore> = card.questions.iter().flat_map(|q| &q.items).collect();
     let spans: BTreeMap<&str, _> =
         lab.questions.iter().flat_map(|q| &q.criteria).map(|c| (c.id.as_str(), c.span)).collect();
@@ -140,7 +140,7 @@ fn model_answer_earns_everything(lab: &LabDefinition, reference: &Reference) -> 
 }
 
 fn blank_earns_nothing(lab: &LabDefinition, reference: &Reference) -> Check {
-    let card = grade(lab, reference, &empty_submission(lab), None);
+    let card = grade(lab, reference, &Catalogue::default(), &empty_submission(lab), None);
     Check {
         what: "blank answer".to_owned(),
         found: format!("earns {} of {}", card.total.earned, card.total.possible),

@@ -68,6 +68,7 @@ pub fn unmarked(lab: &LabDefinition) -> Scorecard {
                     verdict: Verdict::Unmarked,
                     code: "polemark.failed",
                     evidence: Evidence { reason: our_failure().message, ..Evidence::default() },
+                    diagnosis: None,
                     provisional: true,
                     override_reason: None,
                     position: None,

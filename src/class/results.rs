@@ -1,4 +1,5 @@
 use super::Marked;
+use crate::grading::Diagnosis;
 use crate::source::Severity;
 use serde::Serialize;
 
@@ -35,6 +36,7 @@ pub fn results_line(marked: &Marked) -> Result<String, serde_json::Error> {
                 },
                 line: item.position.map(|p| p.line),
                 column: item.position.map(|p| p.column),
+                diagnosis: item.diagnosis.as_ref().map(DiagnosisView::of),
             })
             .collect(),
         findings: submission
@@ -91,6 +93,29 @@ struct Item<'a> {
     evidence: EvidenceView<'a>,
     line: Option<usize>,
     column: Option<usize>,
+    diagnosis: Option<DiagnosisView<'a>>,
+}
+
+#[derive(Serialize)]
+struct DiagnosisView<'a> {
+    explanations: Vec<ExplanationView<'a>>,
+    searched: usize,
+}
+
+#[derive(Serialize)]
+struct ExplanationView<'a> {
+    code: &'a str,
+    words: &'a str,
+    changes: &'a [String],
+}
+
+impl<'a> DiagnosisView<'a> {
+    fn of(diagnosis: &'a Diagnosis) -> Self {
+        let explanations = diagnosis.explanations.iter();
+        let view =
+            explanations.map(|e| ExplanationView { code: &e.code, words: &e.words, changes: &e.changes });
+        Self { explanations: view.collect(), searched: diagnosis.searched }
+    }
 }
 
 #[derive(Serialize)]

@@ -5,7 +5,7 @@ use super::outcome::Outcome;
 use super::results::results_line;
 use super::statistics::Statistics;
 use super::students_seen::StudentsSeen;
-use crate::grading::{HandMarksFile, grade};
+use crate::grading::{Catalogue, HandMarksFile, grade};
 use crate::lab::LabDefinition;
 use crate::reference::Reference;
 use crate::report::ReportKit;
@@ -27,6 +27,7 @@ const STACK_BYTES: usize = 16 << 20;
 pub struct ClassJob<'a> {
     pub lab: &'a LabDefinition,
     pub reference: &'a Reference,
+    pub catalogue: &'a Catalogue,
     pub kit: &'a ReportKit,
     pub marks: Option<&'a HandMarksFile>,
     pub files: &'a [AnswerFile],
@@ -199,8 +200,8 @@ fn mark_and_write(
     // Members of a group that are still together were given the same.
     let marks = job.marks.and_then(|file| file.student(&submission.students.first()?.id));
     let mut failed = submission.findings.iter().any(|f| f.code == our_failure().code);
-    let scorecard = match catch_unwind(AssertUnwindSafe(|| grade(job.lab, job.reference, &submission, marks)))
-    {
+    let marking = AssertUnwindSafe(|| grade(job.lab, job.reference, job.catalogue, &submission, marks));
+    let scorecard = match catch_unwind(marking) {
         Ok(card) if !failed => card,
         _ => {
             failed = true;

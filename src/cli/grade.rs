@@ -1,7 +1,7 @@
 use super::outcome::{Failure, OURS, THEIRS, colour_on_stderr, load_with_reference};
 use crate::class::{ClassJob, Outcome, find_answer_files, grade_class};
-use crate::grading::HandMarks;
 use crate::grading::HandMarksFile;
+use crate::grading::{Catalogue, HandMarks};
 use crate::lab::LabDefinition;
 use crate::report::ReportKit;
 use crate::source::{Severity, SourceText, sanitize};
@@ -39,11 +39,13 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let (lab, reference) = load_with_reference(arguments.lab.as_deref())?;
     let marks = arguments.marks.as_deref().map(|path| load_marks(path, &lab)).transpose()?;
     let files = find_answer_files(&arguments.paths, arguments.marks.as_deref())?;
+    let catalogue = Catalogue::new(&lab, &reference);
     let kit = ReportKit::new(&lab, &reference)?;
     let bar = progress_bar(files.len());
     let job = ClassJob {
         lab: &lab,
         reference: &reference,
+        catalogue: &catalogue,
         kit: &kit,
         marks: marks.as_ref(),
         files: &files,

@@ -1,5 +1,5 @@
 use crate::algebra::Rational;
-use crate::lab::SystemRef;
+use crate::lab::{Check, Criterion, SystemRef};
 use crate::reference::{LinearReference, OperatingPointReference, Reference};
 
 /// One accepted set of parameter values, and what follows from it.
@@ -62,4 +62,12 @@ pub(super) fn accepted<'a, T: ?Sized>(
             point.accepted.iter().map(|one| Accepted { differs: &one.differs, what: pick(one) }).collect()
         })
         .unwrap_or_default()
+}
+
+/// The system whose transfer function a criterion judges.
+pub(super) fn transfer_function_of(criterion: &Criterion) -> Option<&SystemRef> {
+    match &criterion.check {
+        Check::Structure { of } | Check::Numerator { of, .. } | Check::Denominator { of, .. } => Some(of),
+        _ => None,
+    }
 }

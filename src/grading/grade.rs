@@ -1,26 +1,27 @@
-use super::accepted::{accepted, operating_point};
+use super::accepted::{accepted, operating_point, transfer_function_of};
 use super::mark::{Mark, beginning};
 use super::plot::{Demands, Target};
 use super::{
-    HandMarks, ItemScore, QuestionScore, Scorecard, Tally, Verdict, concepts, cover, nonlinearity, plot,
-    poles, shape, stability, transfer_function, value,
+    Catalogue, HandMarks, ItemScore, QuestionScore, Scorecard, Tally, Verdict, concepts, cover, nonlinearity,
+    plot, poles, shape, stability, transfer_function, value,
 };
 use crate::lab::{Check, Criterion, Curve, LabDefinition, Question, SystemRef};
 use crate::lti::InputKind;
 use crate::reference::{LinearReference, Reference, ResponseReference};
 use crate::submission::{Answer, AnswerValue, Figure, Series, Submission, Unreadable};
 
-/// Every mark of one submission, with its evidence.
+/// Every mark of one submission, with its evidence, and with `catalogue` what may explain a wrong transfer function.
 ///
 /// The same input gives the same scorecard. What cannot be judged is [`Verdict::Unmarked`], never silently a zero; what a
 /// person decided in `hand` stands. An override whose points are out of range is ignored (reading the marks file reports it).
 pub fn grade(
     lab: &LabDefinition,
     reference: &Reference,
+    catalogue: &Catalogue,
     submission: &Submission,
     hand: Option<&HandMarks>,
 ) -> Scorecard {
-    let grader = Grader { reference, submission };
+    let grader = Grader { reference, catalogue, submission };
     let questions: Vec<QuestionScore> = lab
         .questions
         .iter()
@@ -66,6 +67,7 @@ fn item_score(
         verdict: mark.verdict,
         code: mark.code,
         evidence: mark.evidence,
+        diagnosis: mark.diagnosis,
         provisional: mark.provisional,
         override_reason: given.map(|given| given.reason.clone()),
         position: position(criterion, submission),
@@ -84,6 +86,7 @@ fn position(criterion: &Criterion, submission: &Submission) -> Option<crate::sou
 
 struct Grader<'a> {
     reference: &'a Reference,
+    catalogue: &'a Catalogue,
     submission: &'a Submission,
 }
 
@@ -141,7 +144,12 @@ impl<'a> Grader<'a> {
         if let Field::Value(_, AnswerValue::TransferFunction { transfer_function: typed, .. }) =
             self.field(&first.field)
         {
-            return transfer_function::judge(criteria, &accepted, typed);
+            let mut marks = transfer_function::judge(criteria, &accepted, typed);
+            let wrong = |mark: &&mut Mark| matches!(mark.verdict, Verdict::Wrong | Verdict::Partly);
+            if let Some(first) = marks.iter_mut().find(wrong) {
+                first.diagnosis = self.catalogue.diagnose(of, typed);
+            }
+            return marks;
         }
         let expected = |criterion: &Criterion| transfer_function::expected(&criterion.check, &accepted);
         criteria.iter().map(|criterion| self.without_value(criterion, expected(criterion))).collect()
@@ -290,13 +298,6 @@ impl<'a> Grader<'a> {
     }
 }
 
-fn transfer_function_of(criterion: &Criterion) -> Option<&SystemRef> {
-    match &criterion.check {
-        Check::Structure { of } | Check::Numerator { of, .. } | Check::Denominator { of, .. } => Some(of),
-        _ => None,
-    }
-}
-
 fn response_of(linear: &LinearReference, response: InputKind) -> &ResponseReference {
     match response {
         InputKind::Impulse => &linear.impulse,
@@ -339,7 +340,7 @@ mod tests {
     }
 
     fn card(answers: &str, hand: Option<&HandMarks>) -> Scorecard {
-        grade(&lab().0, &lab().1, &submission(answers), hand)
+        grade(&lab().0, &lab().1, &Catalogue::default(), &submission(answers), hand)
     }
 
     fn item<'a>(card: &'a Scorecard, id: &str) -> &'a ItemScore {
@@ -418,7 +419,7 @@ mod tests {
     #[test]
     fn the_model_answer_earns_everything_and_a_blank_nothing() {
         let (lab, reference) = lab();
-        let full = grade(lab, reference, &lab.model_answer, None);
+        let full = grade(lab, reference, &Catalogue::default(), &lab.model_answer, None);
         assert_eq!(full.total.earned, full.total.possible);
         let blank = card("  {}\n", None);
         assert_eq!(blank.total.earned, Points::ZERO);
@@ -432,7 +433,7 @@ mod tests {
     fn a_file_that_is_not_yaml_is_unreadable_throughout() {
         let (lab, reference) = lab();
         let broken = read("x", "x.yaml", b"answers: [", &lab.sheet, &NoFiles);
-        let card = grade(lab, reference, &broken, None);
+        let card = grade(lab, reference, &Catalogue::default(), &broken, None);
         for item in card.questions.iter().flat_map(|question| &question.items) {
             assert_eq!((item.verdict, item.earned), (Verdict::Unreadable, Points::ZERO), "{}", item.id);
         }
@@ -442,7 +443,7 @@ mod tests {
     fn without_a_reference_a_person_decides() {
         let (lab, _) = lab();
         let nothing = Reference { lab: lab.id.clone(), models: Vec::new(), simulations: Vec::new() };
-        let card = grade(lab, &nothing, &lab.model_answer, None);
+        let card = grade(lab, &nothing, &Catalogue::default(), &lab.model_answer, None);
         for id in ["hanging.transfer_function.numerator", "hanging.response.poles", "saturation.plot"] {
             assert_eq!((item(&card, id).code, item(&card, id).provisional), ("unmarked", true), "{id}");
         }

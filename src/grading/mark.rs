@@ -1,4 +1,4 @@
-use super::{Evidence, Verdict};
+use super::{Diagnosis, Evidence, Verdict};
 use crate::algebra::Rational;
 use crate::lab::Points;
 use crate::submission::{Answer, Unreadable};
@@ -11,25 +11,47 @@ pub(super) struct Mark {
     pub earned: Points,
     pub evidence: Evidence,
     pub provisional: bool,
+    pub diagnosis: Option<Diagnosis>,
 }
 
 impl Mark {
     pub fn right(points: Points, evidence: Evidence) -> Self {
-        Self { verdict: Verdict::Right, code: "right", earned: points, evidence, provisional: false }
+        Self {
+            verdict: Verdict::Right,
+            code: "right",
+            earned: points,
+            evidence,
+            provisional: false,
+            diagnosis: None,
+        }
     }
 
     pub fn partly(code: &'static str, earned: Points, evidence: Evidence) -> Self {
-        Self { verdict: Verdict::Partly, code, earned, evidence, provisional: false }
+        Self { verdict: Verdict::Partly, code, earned, evidence, provisional: false, diagnosis: None }
     }
 
     pub fn wrong(code: &'static str, evidence: Evidence) -> Self {
-        Self { verdict: Verdict::Wrong, code, earned: Points::ZERO, evidence, provisional: false }
+        Self {
+            verdict: Verdict::Wrong,
+            code,
+            earned: Points::ZERO,
+            evidence,
+            provisional: false,
+            diagnosis: None,
+        }
     }
 
     pub fn blank(expected: String) -> Self {
         let evidence =
             Evidence { expected, reason: "Nothing was written here.".into(), ..Evidence::default() };
-        Self { verdict: Verdict::Blank, code: "blank", earned: Points::ZERO, evidence, provisional: false }
+        Self {
+            verdict: Verdict::Blank,
+            code: "blank",
+            earned: Points::ZERO,
+            evidence,
+            provisional: false,
+            diagnosis: None,
+        }
     }
 
     pub fn unreadable(expected: String, answer: &Answer, why: &Unreadable) -> Self {
@@ -44,6 +66,7 @@ impl Mark {
             earned: Points::ZERO,
             evidence,
             provisional: false,
+            diagnosis: None,
         }
     }
 
@@ -56,6 +79,7 @@ impl Mark {
             earned: Points::ZERO,
             evidence,
             provisional: true,
+            diagnosis: None,
         }
     }
 }

@@ -3,11 +3,15 @@
 //! One file a kind of criterion. How each of them decides, with examples, is in `docs/marking.md`.
 
 mod accepted;
+mod catalogue;
 mod closeness;
 mod concepts;
 mod cover;
+mod diagnosis;
+mod digits;
 mod grade;
 mod hand_marks;
+mod likeness;
 mod mark;
 mod nonlinearity;
 mod phrase;
@@ -21,6 +25,8 @@ mod stability;
 mod transfer_function;
 mod value;
 
+pub use catalogue::Catalogue;
+pub use diagnosis::{Diagnosis, Explanation};
 pub use grade::grade;
 pub use hand_marks::{HandMarks, HandMarksFile, Override};
 pub use scorecard::*;
@@ -41,6 +47,14 @@ mod tests {
             "concepts",
             "nonlinearity",
             "marks",
+            "point",
+            "term",
+            "factor",
+            "parameter",
+            "output",
+            "input",
+            "function",
+            "slip",
         ];
         source
             .split('"')
@@ -60,6 +74,7 @@ mod tests {
         let manual = include_str!("../../docs/marking.md");
         let sources = [
             include_str!("concepts.rs"),
+            include_str!("digits.rs"),
             include_str!("hand_marks.rs"),
             include_str!("nonlinearity.rs"),
             include_str!("plot.rs"),
@@ -68,6 +83,7 @@ mod tests {
             include_str!("stability.rs"),
             include_str!("transfer_function.rs"),
             include_str!("value.rs"),
+            include_str!("../model/mistakes/mod.rs"),
         ];
         let all: Vec<_> = sources.iter().flat_map(|source| codes(source)).collect();
         assert!(all.len() > 50, "{all:?}");

@@ -1,3 +1,4 @@
+use super::Diagnosis;
 use crate::lab::Points;
 use crate::source::{Position, Span};
 use std::ops::Add;
@@ -91,6 +92,8 @@ pub struct ItemScore {
     /// Stable, dotted: `denominator.sign`, `poles.mirrored`, `concepts.contradicted`.
     pub code: &'static str,
     pub evidence: Evidence,
+    /// Of a wrong transfer function, at the first criterion that is not right: what may have gone wrong.
+    pub diagnosis: Option<Diagnosis>,
     /// To be confirmed by a person.
     pub provisional: bool,
     /// A person changed the mark: their reason.

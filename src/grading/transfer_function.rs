@@ -123,7 +123,7 @@ fn readings<'a>(
 
 /// Without coefficients below 1e-12 of the largest of their polynomial, which programs leave behind where they mean 0;
 /// `None` when there are none.
-fn without_residue(typed: &TransferFunction) -> Option<TransferFunction> {
+pub(super) fn without_residue(typed: &TransferFunction) -> Option<TransferFunction> {
     let limit = Rational::from(10).pow(-12);
     let clean = |polynomial: &Polynomial| {
         let coefficients = polynomial.coefficients();
@@ -361,7 +361,7 @@ fn orders(g: &TransferFunction) -> String {
     )
 }
 
-fn capitalized(sentence: &str) -> String {
+pub(super) fn capitalized(sentence: &str) -> String {
     let mut letters = sentence.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

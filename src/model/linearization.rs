@@ -32,8 +32,7 @@ pub fn linearize(
     input: &str,
     output: &str,
 ) -> Result<Linearization, ModelError> {
-    let output = model.coordinates.iter().position(|c| c.name == output).ok_or_else(|| no_value(output))?;
-    let input = model.inputs.iter().position(|name| name == input).ok_or_else(|| no_value(input))?;
+    let (input, output) = places(model, input, output)?;
     at.check(model, parameters)?;
     let slopes = Slopes::at(model, parameters, at)?;
     let uncancelled = slopes.eliminate(input, output)?;
@@ -51,6 +50,25 @@ pub fn linearize(
         linear_equations: slopes.linear_equations(model),
         exact: slopes.exact,
     })
+}
+
+/// The transfer function alone, nothing cancelled, of small deviations from `at`, whether or not the equations balance there.
+pub(super) fn about(
+    model: &Model,
+    parameters: &BTreeMap<String, Rational>,
+    at: &Equilibrium,
+    input: &str,
+    output: &str,
+) -> Result<TransferFunction, ModelError> {
+    let (input, output) = places(model, input, output)?;
+    Slopes::at(model, parameters, at)?.eliminate(input, output)
+}
+
+/// Where the input and the output coordinate stand in the model.
+fn places(model: &Model, input: &str, output: &str) -> Result<(usize, usize), ModelError> {
+    let output = model.coordinates.iter().position(|c| c.name == output).ok_or_else(|| no_value(output))?;
+    let input = model.inputs.iter().position(|name| name == input).ok_or_else(|| no_value(input))?;
+    Ok((input, output))
 }
 
 /// Partial derivatives of every left − right.

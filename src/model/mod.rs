@@ -5,6 +5,7 @@ mod equations;
 mod equilibrium;
 mod exact;
 mod linearization;
+mod mistakes;
 mod motion;
 mod program;
 
@@ -13,3 +14,4 @@ pub use equations::{Coordinate, Equation, Model, ModelError};
 pub use equilibrium::Equilibrium;
 pub use exact::Exact;
 pub use linearization::{Linearization, linearize};
+pub use mistakes::{Derivation, Mistake, MistakeKind, mistakes};

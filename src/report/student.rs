@@ -6,10 +6,10 @@ use super::kit::{QuestionKit, ReportKit};
 use super::numbers::typeset;
 use super::prose;
 use super::view::{
-    AnswerView, BoxView, FigureView, FindingView, ItemView, LevelView, ObservedView, OutcomeView, TallyView,
-    VerdictView,
+    AnswerView, BoxView, DiagnosisView, FigureView, FindingView, ItemView, LevelView, ObservedView,
+    OutcomeView, TallyView, VerdictView,
 };
-use crate::grading::{ItemScore, QuestionScore, Scorecard, Tally};
+use crate::grading::{Diagnosis, ItemScore, QuestionScore, Scorecard, Tally};
 use crate::lab::{LabDefinition, ObservedRow, Points, Question};
 use crate::source::{Finding, SourceText, sanitize};
 use crate::submission::{AnswerValue, Submission};
@@ -53,6 +53,7 @@ struct QuestionView {
     figures: Vec<FigureView>,
     remark: String,
     items: Vec<ItemView>,
+    diagnosis: Option<DiagnosisView>,
 }
 
 /// More findings than this are counted, not shown.
@@ -160,7 +161,24 @@ fn question(
         figures: kit.pictures.iter().flat_map(|p| p.for_student(submission)).collect(),
         remark: kit.remark.clone(),
         items: score.map(|s| items(question, s, submission)).unwrap_or_default(),
+        diagnosis: score.and_then(|s| s.items.iter().find_map(|i| i.diagnosis.as_ref())).map(diagnosis),
     }
+}
+
+/// What may have gone wrong on the way to a transfer function.
+fn diagnosis(diagnosis: &Diagnosis) -> DiagnosisView {
+    let lead = match diagnosis.explanations.len() {
+        0 => format!(
+            "No single slip explains what you wrote; {} wrong turns were followed to their end. Going through the \
+             derivation line by line, beside the reference, is the way to find it.",
+            diagnosis.searched
+        ),
+        1 => "What you wrote comes out when one follows the equations with this change:".to_owned(),
+        _ => "What you wrote comes out when one follows the equations with any one of these changes:"
+            .to_owned(),
+    };
+    let explanations = diagnosis.explanations.iter().map(|e| prose::sentences(&sanitize(&e.words)));
+    DiagnosisView { lead, explanations_html: explanations.collect() }
 }
 
 fn items(question: &Question, score: &QuestionScore, submission: &Submission) -> Vec<ItemView> {

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::algebra::{Polynomial, parse_decimal};
-use crate::grading::{Scorecard, grade};
+use crate::grading::{Catalogue, Scorecard, grade};
 use crate::lab::{self, LabDefinition, Points};
 use crate::lti::{InputKind, Response, TransferFunction};
 use crate::reference::Reference;
@@ -15,6 +15,7 @@ use std::sync::LazyLock;
 struct Fixture {
     lab: LabDefinition,
     reference: Reference,
+    catalogue: Catalogue,
     kit: ReportKit,
 }
 
@@ -22,11 +23,12 @@ static FIXTURE: LazyLock<Fixture> = LazyLock::new(|| {
     let lab = lab::load(lab::DEFAULT).expect("the embedded lab reads");
     let reference = Reference::compute(&lab).expect("the embedded lab computes");
     let kit = ReportKit::new(&lab, &reference).expect("its figures can be drawn");
-    Fixture { lab, reference, kit }
+    let catalogue = Catalogue::new(&lab, &reference);
+    Fixture { lab, reference, catalogue, kit }
 });
 
 fn page(submission: &Submission) -> (Scorecard, String) {
-    let scorecard = grade(&FIXTURE.lab, &FIXTURE.reference, submission, None);
+    let scorecard = grade(&FIXTURE.lab, &FIXTURE.reference, &FIXTURE.catalogue, submission, None);
     let page = FIXTURE.kit.student_page(submission, &scorecard);
     (scorecard, page)
 }

@@ -121,6 +121,13 @@ pub struct ItemView {
     pub place: Option<String>,
 }
 
+/// What may explain a wrong transfer function.
+#[derive(Serialize)]
+pub struct DiagnosisView {
+    pub lead: String,
+    pub explanations_html: Vec<String>,
+}
+
 /// A quotation and what it was taken for.
 #[derive(Clone, Debug, Serialize)]
 pub struct QuoteView {

@@ -1,6 +1,6 @@
 //! What the embedded lab's phrases hear in sentences that were not written for them: the table `claims.txt`.
 
-use polemark::grading;
+use polemark::grading::{self, Catalogue};
 use polemark::lab::{self, Points};
 use polemark::reference::Reference;
 use polemark::submission::{self, NoFiles};
@@ -43,7 +43,7 @@ fn the_phrases_hear_what_a_teacher_hears() {
         let field = &asked.unwrap_or_else(|| panic!("claims.txt: no criterion `{criterion}`")).field;
         let file = format!("answers:\n  {field}: |\n    {sentence}\n");
         let submission = submission::read("claim", "claim.yaml", file.as_bytes(), &lab.sheet, &NoFiles);
-        let scorecard = grading::grade(&lab, &reference, &submission, None);
+        let scorecard = grading::grade(&lab, &reference, &Catalogue::default(), &submission, None);
         let item =
             scorecard.questions.iter().flat_map(|question| &question.items).find(|i| i.id == criterion);
         let heard = item.expect("every criterion is marked").earned > Points::ZERO;

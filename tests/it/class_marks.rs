@@ -1,7 +1,7 @@
 //! The program marks `submissions/` as a careful teacher does.
 
 use crate::teacher_marks::{self, Given, Mark};
-use polemark::grading::{self, ItemScore};
+use polemark::grading::{self, Catalogue, ItemScore};
 use polemark::lab::{self, LabDefinition, Points};
 use polemark::reference::Reference;
 use polemark::submission::{self, Folder};
@@ -23,7 +23,7 @@ fn marked(lab: &LabDefinition, reference: &Reference, file: &str) -> BTreeMap<St
     let name = format!("{file}.yaml");
     let bytes = fs::read(folder().join(&name)).unwrap_or_else(|error| panic!("{name}: {error}"));
     let submission = submission::read(file, &name, &bytes, &lab.sheet, &Folder(folder()));
-    let scorecard = grading::grade(lab, reference, &submission, None);
+    let scorecard = grading::grade(lab, reference, &Catalogue::default(), &submission, None);
     scorecard
         .questions
         .into_iter()

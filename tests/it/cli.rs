@@ -156,6 +156,43 @@ fn a_line_of_results_has_the_promised_shape() {
 }
 
 #[test]
+fn a_wrong_transfer_function_comes_with_what_explains_it() {
+    let bench = Bench::new();
+    let file = samples().join("seed-report.yaml");
+    bench.run(&["grade", &file.to_string_lossy(), "--out", "out"]).ends_with(0);
+    let text = std::fs::read_to_string(bench.path("out/results.jsonl")).expect("written");
+    let line: serde_json::Value = serde_json::from_str(text.trim()).expect("JSON");
+    let items = line["items"].as_array().expect("items");
+    let diagnosed: Vec<_> = items.iter().filter(|item| !item["diagnosis"].is_null()).collect();
+    for (item, (id, code, changes)) in diagnosed.iter().zip([
+        (
+            "hanging.transfer_function.denominator",
+            "term.sign+slip.digit",
+            serde_json::json!([
+                "g = 9.8",
+                "equation 2: m*g*l*sin(theta) -> -m*g*l*sin(theta)",
+                "0.4116 -> 0.4166"
+            ]),
+        ),
+        (
+            "upright.transfer_function.denominator",
+            "slip.digit",
+            serde_json::json!(["g = 9.8", "0.4116 -> 0.4166"]),
+        ),
+    ]) {
+        let explanations = item["diagnosis"]["explanations"].as_array().expect("explanations");
+        assert_eq!((item["id"].as_str(), explanations.len()), (Some(id), 1), "{item}");
+        assert_eq!((explanations[0]["code"].as_str(), &explanations[0]["changes"]), (Some(code), &changes));
+        assert!(item["diagnosis"]["searched"].as_u64() > Some(60), "{item}");
+    }
+    assert_eq!(diagnosed.len(), 2);
+    let page = std::fs::read_to_string(bench.path("out/reports/EE-001.html")).expect("written");
+    let words = "With g = 9.8, the term <code>m*g*l*sin(theta)</code> of equation 2 has the wrong sign, and \
+                 <code>0.4166</code> was written for <code>0.4116</code>, one digit off.";
+    assert!(page.contains(words));
+}
+
+#[test]
 fn the_reference_is_exact_to_every_digit_json_holds() {
     let bench = Bench::new();
     let json = bench.run(&["reference", "--format", "json"]).ends_with(0).out;

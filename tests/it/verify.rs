@@ -1,6 +1,6 @@
 //! `verify` proves the embedded lab, and notices when any number the key depends on is changed.
 
-use polemark::grading::grade;
+use polemark::grading::{Catalogue, grade};
 use polemark::lab::{self, LabDefinition};
 use polemark::proof::prove;
 use polemark::reference::{Reference, check_expectations};
@@ -47,7 +47,7 @@ fn every_number_the_key_depends_on_is_guarded() {
 fn proven(text: &str) -> bool {
     let Ok(lab) = LabDefinition::parse(SourceText::new("lab.yaml", text)) else { return false };
     let Ok(reference) = Reference::compute(&lab) else { return false };
-    let card = grade(&lab, &reference, &lab.model_answer, None);
+    let card = grade(&lab, &reference, &Catalogue::default(), &lab.model_answer, None);
     check_expectations(&reference, &lab.expectations).is_empty() && card.total.earned == card.total.possible
 }
 

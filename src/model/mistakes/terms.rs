@@ -1,0 +1,74 @@
+use super::rewrite::negated;
+use super::{Derivation, Mistake, MistakeKind};
+use crate::algebra::{Expression, NodeKind, Rational};
+use crate::lti::TransferFunction;
+
+/// Every summand of every equation, inside parentheses too: its sign turned, and dropped.
+pub(super) fn mistakes(of: &Derivation<'_>) -> Vec<(Mistake, TransferFunction)> {
+    let mut all = Vec::new();
+    for (index, equation) in of.model.equations.iter().enumerate() {
+        let text = |node: &Expression| equation.text.get(node.start..node.end).unwrap_or_default().trim();
+        for term in terms(&equation.left).into_iter().chain(terms(&equation.right)) {
+            let (place, number, name) = ((term.node.start, term.node.end), index + 1, text(term.node));
+            let what = match term.sum {
+                Some(sum) => format!("`{name}` in `{}` of equation {number}", text(sum)),
+                None => format!("the term `{name}` of equation {number}"),
+            };
+            let mut add = |kind, changed: String, words: String, result: Option<TransferFunction>| {
+                let mistake =
+                    Mistake { kind, words, change: format!("equation {number}: {name} -> {changed}") };
+                all.extend(result.map(|function| (mistake, function)));
+            };
+            add(
+                MistakeKind::TermSign,
+                format!("-{name}"),
+                format!("{what} has the wrong sign"),
+                of.with_node(index, place, &negated),
+            );
+            add(
+                MistakeKind::TermDropped,
+                "0".to_owned(),
+                format!("{what} is missing"),
+                of.with_node(index, place, &|_| NodeKind::Number(Rational::ZERO)),
+            );
+        }
+    }
+    all
+}
+
+/// A summand.
+struct Term<'a> {
+    node: &'a Expression,
+    /// The sum in parentheses it belongs to; `None` for a side of the equation.
+    sum: Option<&'a Expression>,
+}
+
+/// The summands of one side, each followed by those inside it.
+fn terms(side: &Expression) -> Vec<Term<'_>> {
+    let mut found = Vec::new();
+    summands(side, None, &mut found);
+    found
+}
+
+fn summands<'a>(node: &'a Expression, sum: Option<&'a Expression>, found: &mut Vec<Term<'a>>) {
+    match &node.kind {
+        NodeKind::Add(a, b) | NodeKind::Subtract(a, b) => {
+            summands(a, sum, found);
+            summands(b, sum, found);
+        }
+        NodeKind::Negate(a) => summands(a, sum, found),
+        NodeKind::Number(value) if value.is_zero() => {}
+        _ => {
+            found.push(Term { node, sum });
+            node.children().for_each(|child| sums_within(child, found));
+        }
+    }
+}
+
+/// The sums inside a factor.
+fn sums_within<'a>(node: &'a Expression, found: &mut Vec<Term<'a>>) {
+    match &node.kind {
+        NodeKind::Add(..) | NodeKind::Subtract(..) => summands(node, Some(node), found),
+        _ => node.children().for_each(|child| sums_within(child, found)),
+    }
+}
