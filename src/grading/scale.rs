@@ -41,7 +41,9 @@ pub(super) struct Scaled {
     pub agreeing: usize,
     /// How many have its size to the last digit, whatever their sign: tells which of several references was meant.
     pub identical: usize,
-    /// Whether the factor means anything: two coefficients agree on it, or the denominator's only one sets it.
+    /// How many must agree on it for it to mean anything: two, and half of the expected ones that are not zero.
+    pub needed: usize,
+    /// Whether the factor means anything: as many agree on it as must, or the denominator's only one sets it.
     pub supported: bool,
     pub coefficients: Vec<Coefficient>,
 }
@@ -114,8 +116,11 @@ pub(super) fn scalings(
     if best.is_empty() {
         best.push((Rational::ONE, vec![false; pairs.len()]));
     }
-    let supported = most >= 2 || only_denominator.is_some();
-    best.into_iter().map(|(start, agree)| scaled(&pairs, &intervals, start, &agree, supported)).collect()
+    let needed = pairs.iter().filter(|pair| !pair.expected.is_zero()).count().div_ceil(2).max(2);
+    let supported = most >= needed || only_denominator.is_some();
+    best.into_iter()
+        .map(|(start, agree)| Scaled { needed, supported, ..scaled(&pairs, &intervals, start, &agree) })
+        .collect()
 }
 
 /// Coefficients by power, both zero left out.
@@ -160,13 +165,7 @@ fn only_term(pairs: &[Coefficient], part: Part) -> Option<usize> {
     }
 }
 
-fn scaled(
-    pairs: &[Coefficient],
-    intervals: &[Option<Interval>],
-    start: Rational,
-    agree: &[bool],
-    supported: bool,
-) -> Scaled {
+fn scaled(pairs: &[Coefficient], intervals: &[Option<Interval>], start: Rational, agree: &[bool]) -> Scaled {
     let agreeing: Vec<&Interval> =
         intervals.iter().zip(agree).filter(|(_, yes)| **yes).filter_map(|(one, _)| one.as_ref()).collect();
     // Shown with the ratio that most of them have to the last digit, else the denominator's first, else any.
@@ -197,7 +196,7 @@ fn scaled(
             Coefficient { fit, ..pair.clone() }
         })
         .collect();
-    Scaled { factor, agreeing: agreeing.len(), identical, supported, coefficients }
+    Scaled { factor, agreeing: agreeing.len(), identical, needed: 0, supported: false, coefficients }
 }
 
 #[cfg(test)]

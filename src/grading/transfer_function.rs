@@ -274,9 +274,17 @@ impl Reading<'_> {
         };
         if !self.scaled.supported {
             let expected = format!("{}, {}.{}", text(polynomial), up_to_a_factor(tolerance), also(accepted));
+            let agreeing = match self.scaled.agreeing {
+                0 | 1 => "No two of your coefficients stand".to_owned(),
+                several => {
+                    format!(
+                        "Only {several} of your coefficients (of the {} needed) stand",
+                        self.scaled.needed
+                    )
+                }
+            };
             let reason = format!(
-                "No two of your coefficients stand in the proportion expected of them, so nothing in the {name} can be \
-                 said to be right."
+                "{agreeing} in the proportion expected of them, so nothing in the {name} can be said to be right."
             );
             return (expected, reason);
         }
@@ -556,6 +564,19 @@ mod tests {
                     "5",
                     "1",
                     [(0, "structure.order"), (0, "numerator.terms"), (0, "denominator.terms")],
+                ),
+                // Two of five that agree with each other may do so by chance.
+                (
+                    "two terms",
+                    "-0.06 0",
+                    "0.41202 0",
+                    [(0, "structure.order"), (0, "numerator.value"), (0, "denominator.terms")],
+                ),
+                (
+                    "two of five agree",
+                    num,
+                    "0.0132 0.0042 0.5 0.07",
+                    [S, (0, "numerator.value"), (0, "denominator.value")],
                 ),
                 // Any numerator agrees with itself: that alone proves nothing.
                 ("all wrong", "7 0", "1 2 3 4", [S, (0, "numerator.value"), (0, "denominator.value")]),

@@ -1,6 +1,6 @@
 //! Data of the embedded lab: what agrees with its curves earns the points however it was exported, what does not earns none.
 
-use polemark::grading;
+use polemark::grading::{self, Catalogue};
 use polemark::lab::{self, LabDefinition, Points};
 use polemark::reference::{Reference, ResponseReference, SimulationReference};
 use polemark::submission::{self, NoFiles};
@@ -43,7 +43,7 @@ impl Bench {
     fn check_data(&self, what: &str, field: &str, data: &str, code: &str) {
         let file = format!("answers:\n  {field}.data: |\n{data}");
         let submission = submission::read("plot", "plot.yaml", file.as_bytes(), &self.lab.sheet, &NoFiles);
-        let card = grading::grade(&self.lab, &self.reference, &submission, None);
+        let card = grading::grade(&self.lab, &self.reference, &Catalogue::default(), &submission, None);
         let mut items = card.questions.iter().flat_map(|question| &question.items);
         let item = items.find(|item| item.id == format!("{field}.plot")).expect("it is in the lab");
         assert_eq!(item.code, code, "{field}, {what}: {}", item.evidence.reason);
