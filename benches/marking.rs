@@ -79,6 +79,15 @@ mod once_a_student {
         bencher.bench(|| grade(&LAB, &REFERENCE, &CATALOGUE, black_box(&SUBMISSION), None));
     }
 
+    /// The longest search: nothing explains it.
+    #[divan::bench]
+    fn grade_a_transfer_function_nothing_explains(bencher: Bencher<'_, '_>) {
+        let text = b"answers: {hanging.transfer_function: 7.123s / (1.234s^3 + 2.345s^2 + 3.456s + 4.567)}";
+        let wrong = read("wrong", "wrong.yaml", text, &LAB.sheet, &NoFiles);
+        LazyLock::force(&CATALOGUE);
+        bencher.bench(|| grade(&LAB, &REFERENCE, &CATALOGUE, black_box(&wrong), None));
+    }
+
     #[divan::bench]
     fn write_report(bencher: Bencher<'_, '_>) {
         LazyLock::force(&KIT);

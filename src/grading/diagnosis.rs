@@ -332,4 +332,25 @@ mod tests {
         }
         assert!(distinct >= 60, "{distinct}");
     }
+
+    /// Coefficients of four figures and any sign, of the right form: chance explains few of them.
+    #[test]
+    fn chance_explains_little() {
+        let mut state = 1u64;
+        let mut next = |below: u64| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) % below
+        };
+        let (mut explained, tries) = (Vec::new(), 300);
+        for _ in 0..tries {
+            let mut number = || format!("{}{}e-4", ["", "-"][next(2) as usize], 1_000 + next(9_000));
+            let num = format!("{} 0", number());
+            let den = [number(), number(), number(), number()].join(" ");
+            let found = CATALOGUE.diagnose(&at("hanging"), &function(&num, &den)).unwrap();
+            if !found.explanations.is_empty() {
+                explained.push((num, den, found.explanations));
+            }
+        }
+        assert!(explained.len() <= tries / 100, "{explained:#?}");
+    }
 }
