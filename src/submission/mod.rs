@@ -2,6 +2,7 @@
 
 mod answer;
 mod attachments;
+mod beside;
 mod comma_to_point;
 mod decimal;
 mod decimal_commas;

@@ -535,21 +535,26 @@ fn word<T>(
     named: impl Fn(&str) -> Vec<&'static str>,
 ) -> Result<T, Box<Finding>> {
     let &Kind { name, code, words } = kind;
-    let text =
-        scalar(node, code, &format!("A word for {} is asked for here", name.trim_start_matches("a ")))?;
+    let ticked = |words: &[&str], joint: &str| {
+        words.iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(joint)
+    };
+    // `[dead zone]`: a list of one.
+    let node = match node.as_sequence() {
+        Some([only]) => only,
+        _ => node,
+    };
+    let wanted = format!("A word for {} is asked for here", name.trim_start_matches("a "));
+    let one_word = format!("Give one word: {}.", ticked(words, ", "));
+    let text = scalar(node, code, &wanted).map_err(|finding| Box::new(finding.with_help(&one_word)))?;
     read(text).ok_or_else(|| {
-        let ticked = |words: &[&str], joint: &str| {
-            words.iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(joint)
-        };
         let named = named(text);
         let (message, help) = if named.len() > 1 {
             let message = format!("{} names more than one, and one is asked for.", quote(text));
             (message, format!("Give one: {}.", ticked(&named, " or ")))
         } else {
-            let list = ticked(words, ", ");
             let help = match nearest(text.trim(), words.iter().copied()) {
-                Some(near) => format!("Did you mean `{near}`? These words are read: {list}."),
-                None => format!("Write one of {list}."),
+                Some(near) => format!("Did you mean `{near}`? {one_word}"),
+                None => one_word,
             };
             (format!("{} is not read as one word for {name}.", quote(text)), help)
         };

@@ -1,3 +1,4 @@
+use super::beside::{BESIDE_NONLINEARITY, BESIDE_STABILITY, TURNS, after_cause, classes, is_harmless};
 use crate::lti::{Shape, Stability};
 
 /// The class of a hard nonlinearity, as a word.
@@ -15,61 +16,103 @@ pub enum NonlinearityKind {
 
 /// `deadzone`, `dead-zone`, `deadband` … are the same word. Short sentences are read too (`the motor shows a dead zone`).
 ///
-/// `None` when no class, or more than one, is named.
+/// `None` when no class, or more than one, is named, or beside it a word that may turn its meaning (`hardly`, `is wrong`).
 pub fn nonlinearity_word(text: &str) -> Option<NonlinearityKind> {
-    let text = before_cause(text);
-    if several(named(text, SEPARATORS, nonlinearity)) {
-        None
-    } else {
-        or_without_contrast(text, nonlinearity)
-    }
+    let (text, remarks) = without_remarks(before_cause(text, OCCASIONS)?)?;
+    let kind = one_class(&text, nonlinearity)?;
+    let same =
+        |remark: &String| is_harmless(remark, &BESIDE_NONLINEARITY) || nonlinearity(remark) == Some(kind);
+    remarks.iter().all(same).then_some(kind)
 }
 
 fn nonlinearity(text: &str) -> Option<NonlinearityKind> {
-    let mut words = Words::new(text)?;
-    if words.has_any(NEGATIONS) || words.has_any(HEDGES) {
-        return None;
-    }
-    // `backlash deadband` is what Simulink calls the width of a backlash.
-    let backlash = words.take(&[
-        "backlash deadband",
-        "backlash dead band",
-        "backlash dead zone",
-        "deadband backlash",
-        "backlash hysteresis",
-    ]);
-    let rate = words.take(RATE_LIMIT);
-    let named = NONLINEARITIES.iter().filter(|(_, phrases)| words.has_any(phrases)).map(|(kind, _)| *kind);
-    let named = named.chain(backlash.then_some(NonlinearityKind::Backlash));
-    one(named.chain(rate.then_some(NonlinearityKind::RateLimit)))
+    let words = Words::new(text)?;
+    let words: Vec<&str> = words.iter().collect();
+    one(classes(after_cause(&words), NONLINEARITIES, &BESIDE_NONLINEARITY)?.into_iter())
 }
 
 /// `stable`, `BIBO stable`, `asymptotically stable`, `not stable`, `the system is unstable` …
 ///
-/// `None` when no class, more than one, or a denied `unstable` is named.
+/// `None` when no class, more than one, or a denied `unstable` is named, or beside it a word that may turn its meaning
+/// (`almost`, `lacks`, `is false`).
 pub fn stability_word(text: &str) -> Option<Stability> {
-    match text.trim().trim_end_matches('.').to_lowercase().as_str() {
-        // YAML's own words: `stability: no` can mean only one thing.
-        "yes" | "true" => Some(Stability::AsymptoticallyStable),
-        "no" | "false" => Some(Stability::Unstable),
-        _ if several(named(text, SEPARATORS, stability)) => None,
-        _ => or_without_contrast(text, stability),
+    let text = before_cause(text, &[])?;
+    // YAML's own words: `stability: no` can mean only one thing.
+    if let Some(yes) = yes_or_no(text) {
+        return Some(if yes { Stability::AsymptoticallyStable } else { Stability::Unstable });
     }
+    if let Some((question, reply)) = text.split_once('?')
+        && let Some(yes) = yes_or_no(reply)
+    {
+        return match (stability(question)?, yes) {
+            (asked, true) => Some(asked),
+            (Stability::AsymptoticallyStable, false) => Some(Stability::Unstable),
+            (_, false) => None,
+        };
+    }
+    if let Some((yes, rest)) = leading_yes_or_no(text) {
+        let against = if yes { Stability::Unstable } else { Stability::AsymptoticallyStable };
+        return one_class(rest, stability).filter(|stability| *stability != against);
+    }
+    one_class(text, stability)
 }
 
 fn stability(text: &str) -> Option<Stability> {
-    let mut words = Words::new(text)?;
-    if words.has_any(HEDGES) || words.has_any(&["conditionally", "marginally unstable"]) {
+    let words = Words::new(text)?;
+    let words: Vec<&str> = words.iter().collect();
+    one(classes(&words, STABILITIES, &BESIDE_STABILITY)?.into_iter())
+}
+
+/// `yes`, `No!`, `false.`
+fn yes_or_no(text: &str) -> Option<bool> {
+    match text.trim_matches(|c: char| !c.is_alphanumeric()).to_lowercase().as_str() {
+        "yes" | "true" => Some(true),
+        "no" | "false" => Some(false),
+        _ => None,
+    }
+}
+
+/// `no, unstable`: the word, and what follows it.
+fn leading_yes_or_no(text: &str) -> Option<(bool, &str)> {
+    let end = text.find([',', '.', ';', ':', '!', '(']).into_iter();
+    let end = end.chain([" - ", " – ", " — "].iter().filter_map(|dash| text.find(dash))).min()?;
+    Some((yes_or_no(&text[..end])?, &text[end..]))
+}
+
+/// The one class that a text names: also twice (`dead zone or deadband`), and apart from another (`X, not Y`).
+fn one_class<T: PartialEq + Copy>(text: &str, read: impl Fn(&str) -> Option<T>) -> Option<T> {
+    if several(named(text, SEPARATORS, &read)) {
         return None;
     }
-    let denied = words.take(NOT_STABLE).then_some(Stability::Unstable);
-    if words.has_any(NEGATIONS) {
-        return None;
+    if let Some(same) = same_in_all(text, &read) {
+        return Some(same);
     }
-    let marginal = words.take(MARGINAL).then_some(Stability::MarginallyStable);
-    let unstable = words.has_any(&["unstable", "instable", "instability"]).then_some(Stability::Unstable);
-    let stable = words.has_any(&["stable", "stability"]).then_some(Stability::AsymptoticallyStable);
-    one([denied, marginal, unstable, stable].into_iter().flatten())
+    or_without_contrast(text, &read).or_else(|| conclusion(text, read))
+}
+
+/// `…, so this is a dead zone`: what is concluded from a premise in any words that names no class itself.
+fn conclusion<T>(text: &str, read: impl Fn(&str) -> Option<T>) -> Option<T> {
+    const SO: &[&str] =
+        &[", so ", ", therefore ", ", hence ", ", thus ", "; so ", "; therefore ", "; hence ", ". So "];
+    let (at, so) = SO.iter().filter_map(|so| Some((text.rfind(so)?, so))).max_by_key(|(at, _)| *at)?;
+    let premise = Words::new(&text[..at])?;
+    let words: Vec<&str> = premise.iter().collect();
+    let named = (0..words.len()).flat_map(|from| (from..words.len().min(from + 4)).map(move |to| (from, to)));
+    let named = named.into_iter().any(|(from, to)| read(&words[from..=to].join(" ")).is_some());
+    (!named && !premise.has_any(DENIALS)).then(|| read(&text[at + so.len()..]))?
+}
+
+/// What makes a premise one against its conclusion.
+const DENIALS: &[&str] = &["if", "wrong", "false", "said", "says", "say", "claim", "claims", "unless"];
+
+/// What all parts between [`ALTERNATIVES`] name.
+fn same_in_all<T: PartialEq>(text: &str, read: impl Fn(&str) -> Option<T>) -> Option<T> {
+    let mut flat = text.to_lowercase();
+    for separator in ALTERNATIVES {
+        flat = flat.replace(separator, "\n");
+    }
+    let parts: Option<Vec<T>> = flat.split('\n').map(read).collect();
+    one(parts.filter(|parts| parts.len() > 1)?.into_iter())
 }
 
 /// `decaying oscillation`, `damped sinusoid`, `underdamped`, `grows exponentially` …
@@ -79,7 +122,7 @@ pub fn shape_word(text: &str) -> Option<Shape> {
     // `underdamped, decaying exponentially` is one shape in two words; two names, or `/` and `or`, make two shapes.
     let two =
         several(named(text, SEPARATORS, shape_by_name)) || several(named(text, ALTERNATIVES, shape_of_part));
-    if two { None } else { or_without_contrast(text, shape) }
+    if two { None } else { same_in_all(text, shape).or_else(|| or_without_contrast(text, shape)) }
 }
 
 fn shape_by_name(text: &str) -> Option<Shape> {
@@ -96,7 +139,7 @@ fn shape_of_part(text: &str) -> Option<Shape> {
 
 fn shape(text: &str) -> Option<Shape> {
     let mut words = Words::new(text)?;
-    if words.has_any(HEDGES) {
+    if words.has_any(HEDGES) || words.has_any(TURNS) {
         return None;
     }
     let no_swing = words.take(NO_SWING);
@@ -113,7 +156,10 @@ fn shape(text: &str) -> Option<Shape> {
             "decay", "damped", "damping", "shrink", "diminish", "converg", "settl", "decreas", "fading",
             "fade", "attenuat", "subsid",
         ]);
+    // What rises to a level does not grow for ever.
+    let rises = words.has_any(&["rises", "rising"]) && !words.has_any(&["to", "towards", "toward", "final"]);
     let growth = without_bound
+        || rises
         || words.has_any(GROWS)
         || starts(&[
             "grow",
@@ -175,7 +221,9 @@ fn shape(text: &str) -> Option<Shape> {
 
 /// The classes of a nonlinearity a text names beside each other: `backlash / dead zone`.
 pub(super) fn nonlinearities_named(text: &str) -> Vec<&'static str> {
-    named(before_cause(text), SEPARATORS, nonlinearity).into_iter().map(nonlinearity_name).collect()
+    let beside: Vec<&str> = [BESIDE_EACH_OTHER, SEPARATORS].concat();
+    let text = before_cause(text, OCCASIONS).unwrap_or_default();
+    named(text, &beside, nonlinearity).into_iter().map(nonlinearity_name).collect()
 }
 
 /// As [`nonlinearities_named`], in the words that are taught.
@@ -254,21 +302,71 @@ const ALTERNATIVES: &[&str] = &["/", "|", " or "];
 /// Between two answers.
 const SEPARATORS: &[&str] = &["/", "|", " or ", ",", ";", "&", "+", " and ", " as well as "];
 
-/// `a dead zone due to friction` without the cause.
-fn before_cause(text: &str) -> &str {
+/// One name in brackets after another.
+const BESIDE_EACH_OTHER: &[&str] = &["(", ")"];
+
+/// A cause, which may be told in any words.
+const CAUSES: &[&str] = &[
+    " due to ",
+    " because ",
+    "(because ",
+    "(due to ",
+    " caused by ",
+    " owing to ",
+    " since ",
+    ", as ",
+    " as the ",
+    " as it ",
+    " as there ",
+];
+/// The occasion on which a nonlinearity shows.
+const OCCASIONS: &[&str] = &[" when "];
+
+/// `a dead zone due to friction` without the cause. `None` when the cause takes back what stands before it.
+fn before_cause<'t>(text: &'t str, more: &[&str]) -> Option<&'t str> {
     // In ASCII, so that bytes stay where they are.
     let lower = text.to_ascii_lowercase();
-    let causes = [" due to ", " because ", " caused by ", " owing to ", " since "];
-    &text[..causes.iter().filter_map(|cause| lower.find(cause)).min().unwrap_or(text.len())]
+    let found = |mark: &&str| lower.find(*mark).filter(|at| !lower[*at..].starts_with(", as well"));
+    let Some(cut) = CAUSES.iter().chain(more).filter_map(found).min().filter(|cut| *cut > 0) else {
+        return Some(text);
+    };
+    let cause = format!(" {} ", text[cut..].to_lowercase().replace(|c: char| !c.is_alphanumeric(), " "));
+    let mut turns = TURNS.iter().chain(&["but", "or", "if", "unless"]);
+    let turned = turns.any(|turn| cause.contains(&format!(" {turn} ")));
+    (!turned).then_some(&text[..cut])
+}
+
+/// `deadzone (friction)` as `deadzone` and its remark `friction`. `None` when a bracket is left open.
+fn without_remarks(text: &str) -> Option<(String, Vec<String>)> {
+    let (mut bare, mut remarks, mut rest) = (String::new(), Vec::new(), text);
+    while let Some((before, after)) = rest.split_once('(') {
+        let (remark, after) = after.split_once(')')?;
+        bare.push_str(before);
+        if bare.trim().is_empty() {
+            bare.push_str(remark);
+        } else {
+            remarks.push(remark.to_owned());
+        }
+        bare.push(' ');
+        rest = after;
+    }
+    bare.push_str(rest);
+    Some((bare, remarks))
 }
 
 /// What `read` makes of the text, or of the text without what it only sets itself apart from.
-fn or_without_contrast<T>(text: &str, read: impl Fn(&str) -> Option<T>) -> Option<T> {
-    read(text).or_else(|| read(&without_contrast(text)?))
+fn or_without_contrast<T: PartialEq>(text: &str, read: impl Fn(&str) -> Option<T>) -> Option<T> {
+    read(text).or_else(|| {
+        let (rest, other) = without_contrast(text)?;
+        // `stable, not at all` sets itself apart from nothing.
+        let other = read(&other)?;
+        read(&rest).filter(|rest| *rest != other)
+    })
 }
 
-/// `not saturation but dead zone` without `not saturation but`; `stable, not unstable` without `, not unstable`.
-fn without_contrast(text: &str) -> Option<String> {
+/// `not saturation but dead zone` without `not saturation but`; `stable, not unstable` without `, not unstable`; and
+/// what was denied.
+fn without_contrast(text: &str) -> Option<(String, String)> {
     if text.len() > 400 {
         return None;
     }
@@ -277,12 +375,14 @@ fn without_contrast(text: &str) -> Option<String> {
     if let Some(not) = padded.find(" not ")
         && let Some(but) = padded[not..].find(" but ")
     {
-        return Some(format!("{} {}", &padded[..not], &padded[not + but + " but ".len()..]));
+        let rest = format!("{} {}", &padded[..not], &padded[not + but + " but ".len()..]);
+        return Some((rest, padded[not + " not ".len()..].split(" but ").next()?.to_owned()));
     }
-    let comma = [", not ", "; not ", " and not "].iter().filter_map(|mark| lower.find(mark)).min()?;
-    let rest = &lower[comma + 2..];
-    let end = rest.find([',', ';', '.']).map_or("", |i| &rest[i..]);
-    Some(format!("{}{end}", &lower[..comma]))
+    let marks = [", not ", "; not ", " and not "];
+    let (comma, mark) = marks.iter().filter_map(|mark| Some((lower.find(mark)?, mark))).min()?;
+    let denied = &lower[comma + mark.len()..];
+    let end = denied.find([',', ';', '.']).unwrap_or(denied.len());
+    Some((format!("{}{}", &lower[..comma], &denied[end..]), denied[..end].to_owned()))
 }
 
 /// `asymptotically stable`, `marginally stable`, `unstable`.
@@ -341,23 +441,43 @@ pub(super) const NONLINEARITY_WORDS: &[&str] = &[
 
 const NEGATIONS: &[&str] = &["not", "never", "no", "non", "neither", "nor", "without"];
 const HEDGES: &[&str] = &["or", "if", "unless", "maybe", "perhaps", "but", "either", "depends", "until"];
-const NOT_STABLE: &[&str] = &["not stable", "not bibo stable", "non stable", "nonstable", "never stable"];
-const MARGINAL: &[&str] = &[
-    "marginally stable",
-    "marginal stable",
-    "marginal stability",
-    "marginally stability",
-    "critically stable",
-    "critical stability",
-    "neutrally stable",
-    "neutral stability",
-    "borderline stable",
-    "lyapunov stable",
-    "stable in the sense of lyapunov",
-    "limit of stability",
-    "verge of stability",
-    "marginal",
-    "marginally",
+
+const STABILITIES: &[(Stability, &[&str])] = &[
+    (Stability::AsymptoticallyStable, &["stable", "stability"]),
+    (
+        Stability::MarginallyStable,
+        &[
+            "marginally stable",
+            "marginal stable",
+            "marginal stability",
+            "marginally stability",
+            "critically stable",
+            "critical stability",
+            "neutrally stable",
+            "neutral stability",
+            "borderline stable",
+            "lyapunov stable",
+            "stable in the sense of lyapunov",
+            "limit of stability",
+            "verge of stability",
+            "marginal",
+            "marginally",
+        ],
+    ),
+    (
+        Stability::Unstable,
+        &[
+            "unstable",
+            "instable",
+            "instability",
+            "not stable",
+            "not bibo stable",
+            "non stable",
+            "nonstable",
+            "un stable",
+            "never stable",
+        ],
+    ),
 ];
 const NO_SWING: &[&str] = &[
     "without any oscillations",
@@ -424,17 +544,6 @@ const WITHOUT_BOUND: &[&str] = &[
     "to infinity",
 ];
 
-/// Taken out first: a rate limiter is no limiter.
-const RATE_LIMIT: &[&str] = &[
-    "rate limiters",
-    "rate limiter",
-    "rate limiting",
-    "rate limited",
-    "slew rate limit",
-    "rate limit",
-    "slew rate",
-];
-
 const NONLINEARITIES: &[(NonlinearityKind, &[&str])] = &[
     (
         NonlinearityKind::Saturation,
@@ -446,7 +555,21 @@ const NONLINEARITIES: &[(NonlinearityKind, &[&str])] = &[
     ),
     (
         NonlinearityKind::Backlash,
-        &["backlash", "back lash", "gear play", "play", "lost motion", "slack", "gear slop"],
+        // `backlash deadband` is what Simulink calls the width of a backlash.
+        &[
+            "backlash",
+            "back lash",
+            "gear play",
+            "play",
+            "lost motion",
+            "slack",
+            "gear slop",
+            "backlash deadband",
+            "backlash dead band",
+            "backlash dead zone",
+            "deadband backlash",
+            "backlash hysteresis",
+        ],
     ),
     (NonlinearityKind::Relay, &["relay", "on off", "bang bang", "two position"]),
     (
@@ -457,6 +580,18 @@ const NONLINEARITIES: &[(NonlinearityKind, &[&str])] = &[
     (
         NonlinearityKind::Quantization,
         &["quantization", "quantisation", "quantizer", "quantiser", "quantized", "quantised", "quantizing"],
+    ),
+    (
+        NonlinearityKind::RateLimit,
+        &[
+            "rate limiters",
+            "rate limiter",
+            "rate limiting",
+            "rate limited",
+            "slew rate limit",
+            "rate limit",
+            "slew rate",
+        ],
     ),
 ];
 
@@ -571,6 +706,51 @@ mod tests {
                 ("stable but not asymptotically stable", None),
                 ("", None),
                 ("±∞ …", None),
+                ("un-stable", Some(Unstable)),
+                ("un stable", Some(Unstable)),
+                ("no, unstable", Some(Unstable)),
+                ("no, it is not stable", Some(Unstable)),
+                ("stable? no", Some(Unstable)),
+                ("Is it stable? No.", Some(Unstable)),
+                ("unstable? Yes!", Some(Unstable)),
+                ("No!", Some(Unstable)),
+                ("yes, stable", Some(AsymptoticallyStable)),
+                ("unstable because a pole is not in the left half plane", Some(Unstable)),
+                ("unstable (one pole at 5.57 in the right half plane)", Some(Unstable)),
+                ("stable, as all poles have negative real parts", Some(AsymptoticallyStable)),
+                ("unstable or not stable", Some(Unstable)),
+                ("unstable? no", None),
+                ("no, stable", None),
+                ("yes, unstable", None),
+                ("One pole has a positive real part, so the system is unstable.", Some(Unstable)),
+                ("if it were stable the poles would be left, so it is unstable", None),
+                ("they said it is fine, so it is stable", None),
+                ("lacks stability", None),
+                ("the opposite of stable", None),
+                ("the opposite is stable", None),
+                ("stable is false", None),
+                ("stable: false", None),
+                ("stable = 0", None),
+                ("far from stable", None),
+                ("hardly stable", None),
+                ("loses stability", None),
+                ("less stable", None),
+                ("almost stable", None),
+                ("nearly stable", None),
+                ("hardly unstable", None),
+                ("far from unstable", None),
+                ("unstable is false", None),
+                ("nearly unstable", None),
+                ("in-stable", None),
+                ("meta-stable", None),
+                ("isnt stable", None),
+                ("anything but stable", None),
+                ("stable, not at all", None),
+                ("stable (not really)", None),
+                ("stable because that is wrong", None),
+                ("one pole is stable", None),
+                ("stable with feedback", None),
+                ("stable as well as unstable", None),
             ],
         );
     }
@@ -628,6 +808,42 @@ mod tests {
                 ("no backlash", None),
                 ("displayed", None),
                 ("linear", None),
+                ("deadzone (friction)", Some(DeadZone)),
+                ("a deadzone, as the motor does not respond to small voltages", Some(DeadZone)),
+                ("because of friction it has a dead zone", Some(DeadZone)),
+                ("Because of the friction in the motor, a dead zone", Some(DeadZone)),
+                ("dead zone or deadband", Some(DeadZone)),
+                ("dead zone (deadband)", Some(DeadZone)),
+                ("(dead zone)", Some(DeadZone)),
+                ("[dead zone]", Some(DeadZone)),
+                ("dead zone (because of friction)", Some(DeadZone)),
+                ("saturation when the volume is too high", Some(Saturation)),
+                ("the nonlinearity is called backlash", Some(Backlash)),
+                ("the motor suffers from a dead zone", Some(DeadZone)),
+                ("It stops although there is a small voltage left, so this is a dead zone.", Some(DeadZone)),
+                ("I'd say backlash, since the gears are loose.", Some(Backlash)),
+                ("dead zone in the motors of electric toys", Some(DeadZone)),
+                ("dead zone\" onmouseover=\"alert(1)", Some(DeadZone)),
+                ("dead zone of a relay", None),
+                ("dead zone would be silly", None),
+                ("dead zone is nonsense", None),
+                ("it has backlash, so it is not a dead zone", None),
+                ("dead zone is wrong", None),
+                ("dead zone is false", None),
+                ("wrong: dead zone", None),
+                ("everything except dead zone", None),
+                ("far from a dead zone", None),
+                ("hardly a dead zone", None),
+                ("the opposite of saturation", None),
+                ("dead zone, not really", None),
+                ("dead zone (wrong)", None),
+                ("backlash (deadband)", None),
+                ("dead zone (backlash)", None),
+                ("saturation (dead zone)", None),
+                ("dead zone because of friction, but really backlash", None),
+                ("dead zone as well as backlash", None),
+                ("because of backlash a dead zone", None),
+                ("due to friction", None),
                 ("", None),
             ],
         );
@@ -667,6 +883,12 @@ mod tests {
                 ("increases exponentially", Some(ExponentialGrowth)),
                 ("grows without bound", Some(ExponentialGrowth)),
                 ("diverges", Some(ExponentialGrowth)),
+                ("rises exponentially", Some(ExponentialGrowth)),
+                ("rises exponentially to a final value", None),
+                ("the opposite of exponential decay", None),
+                ("hardly a decaying oscillation", None),
+                ("exponential growth is wrong", None),
+                ("decaying oscillation or damped sinusoid", Some(DecayingOscillation)),
                 ("ramp", Some(PolynomialGrowth)),
                 ("linear growth", Some(PolynomialGrowth)),
                 ("grows linearly", Some(PolynomialGrowth)),
