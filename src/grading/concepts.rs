@@ -15,9 +15,9 @@ pub(super) fn expected(concepts: &[Concept], needed: usize) -> String {
     let titles: Vec<_> = concepts.iter().map(|concept| concept.title.as_str()).collect();
     let needed = needed_of(concepts, needed);
     if needed == titles.len() {
-        format!("It says: {}.", titles.join("; "))
+        format!("It should say {}.", that(&titles))
     } else {
-        format!("It says at least {needed} of: {}.", titles.join("; "))
+        format!("It should say at least {needed} of these: {}.", titles.join("; "))
     }
 }
 
@@ -28,7 +28,7 @@ fn needed_of(concepts: &[Concept], needed: usize) -> usize {
 /// Prose by the concepts it states. Always provisional: words are evidence of a thought, not the thought.
 ///
 /// A concept counts when one of its phrases is claimed, half when the same phrase is also denied elsewhere; a contradiction
-/// that is claimed takes all.
+/// that is claimed takes all, unless it is said of something this is set against (`unlike the stable position`).
 pub(super) fn judge(
     points: Points,
     concepts: &[Concept],
@@ -46,6 +46,7 @@ pub(super) fn judge(
     let against: Vec<PhraseMatch> = contradictions
         .iter()
         .flat_map(|concept| matches(concept, &read))
+        .filter(|one| !one.contrasted)
         .map(|one| one.found)
         .filter(|found| found.stance == Stance::Claims)
         .map(|found| PhraseMatch { stance: Stance::Denies, ..found })
@@ -63,9 +64,9 @@ pub(super) fn judge(
     };
     if !against.is_empty() {
         let reason = format!(
-            "It says {}. What should not be said: {}.",
+            "Your text has the words {}. They say {}, which contradicts the answer.",
             quotations(&against, prose),
-            distinct(against.iter().map(|found| found.concept.as_str())).join("; ")
+            that(&distinct(against.iter().map(|found| found.concept.as_str())))
         );
         return provisional(Mark::wrong("concepts.contradicted", evidence(reason)));
     }
@@ -88,14 +89,14 @@ pub(super) fn judge(
     // What is not there is no news once there is enough.
     let missing = if enough { Vec::new() } else { titles(State::Missing) };
     let reason: Vec<String> = [
-        ("Said:", &claimed),
-        ("Both said and denied:", &both),
-        ("Denied:", &denied),
-        ("Not found:", &missing),
+        ("Your text says", &claimed),
+        ("Your text both says and denies", &both),
+        ("Your text denies", &denied),
+        ("We did not find the words that say", &missing),
     ]
     .into_iter()
     .filter(|(_, titles)| !titles.is_empty())
-    .map(|(words, titles)| format!("{words} {}.", titles.join("; ")))
+    .map(|(words, titles)| format!("{words} {}.", that(titles)))
     .collect();
     let evidence = evidence(reason.join(" "));
     provisional(if enough {
@@ -141,9 +142,15 @@ impl State {
     }
 }
 
+/// Titles of concepts are clauses: `that it swings, and that it comes to rest`.
+fn that(titles: &[&str]) -> String {
+    titles.iter().map(|title| format!("that {title}")).collect::<Vec<_>>().join(", and ")
+}
+
 /// What was found, and which of the concept's phrases found it.
 struct Match {
     phrase: usize,
+    contrasted: bool,
     found: PhraseMatch,
 }
 
@@ -156,6 +163,7 @@ fn matches(concept: &Concept, sentences: &[Vec<Token>]) -> Vec<Match> {
             let stance = if said.denied { Stance::Denies } else { Stance::Claims };
             all.push(Match {
                 phrase,
+                contrasted: said.contrasted,
                 found: PhraseMatch { span: said.span, concept: concept.title.clone(), stance },
             });
         }
@@ -270,6 +278,45 @@ mod tests {
         );
         check(3, &[("It oscillates and settles.", 67, Partly, "concepts.missing")]);
         check(9, &[("It swings, settles, 1.1 s", 100, Right, "concepts.found")]);
+    }
+
+    #[test]
+    fn reasons_are_sentences() {
+        let contradictions = [concept("stable", "the position is stable", &["stable"])];
+        let settles = [
+            concept("oscillates", "it oscillates", &["oscillat*"]),
+            concept("settles", "it comes to rest", &["settles"]),
+        ];
+        for (text, code, reason) in [
+            (
+                "It oscillates.",
+                "concepts.missing",
+                "Your text says that it oscillates. We did not find the words that say that it comes to rest.",
+            ),
+            (
+                "It oscillates and settles.",
+                "concepts.found",
+                "Your text says that it oscillates, and that it comes to rest.",
+            ),
+            (
+                "It oscillates and is stable.",
+                "concepts.contradicted",
+                "Your text has the words “stable”. They say that the position is stable, which contradicts the \
+                 answer.",
+            ),
+            (
+                "Unlike the stable one it does not oscillate, it settles.",
+                "concepts.missing",
+                "Your text says that it comes to rest. Your text denies that it oscillates.",
+            ),
+        ] {
+            let mark = judge(Points(100), &settles, 2, &contradictions, text);
+            assert_eq!((mark.code, mark.evidence.reason.as_str()), (code, reason), "{text}");
+            assert_eq!(
+                mark.evidence.expected,
+                "It should say that it oscillates, and that it comes to rest."
+            );
+        }
     }
 
     #[test]

@@ -26,7 +26,7 @@ pub(super) fn expected(kind: NonlinearityKind) -> String {
 pub(super) fn judge(points: Points, want: NonlinearityKind, typed: NonlinearityKind) -> Mark {
     let (expected, found) = (expected(want), nonlinearity_name(typed).to_owned());
     if want == typed {
-        let reason = format!("This is a case of {found}.");
+        let reason = format!("Yes: {found}.");
         return Mark::right(points, Evidence { expected, found, reason, ..Evidence::default() });
     }
     let reason = format!(

@@ -30,6 +30,8 @@ impl PhraseWord {
 pub(super) struct Said {
     pub span: Span,
     pub denied: bool,
+    /// Said of what this is set against: `unlike the stable position`.
+    pub contrasted: bool,
 }
 
 impl Phrase {
@@ -49,26 +51,28 @@ impl Phrase {
         Self { words: all }
     }
 
-    /// Every place where `sentence` says the phrase: its words in order, at most [`BETWEEN`] others between two of them.
+    /// Every place where `sentence` says the phrase: its words in order, at most [`BETWEEN`] others and no punctuation between
+    /// two of them, as close together as they stand.
     pub fn said_in(&self, sentence: &[Token]) -> Vec<Said> {
-        let mut found = Vec::new();
-        let mut start = 0;
-        while start < sentence.len() {
-            match self.places(sentence, start) {
-                Some(places) if !places.is_empty() => {
-                    let (first, last) = (places[0], places[places.len() - 1]);
-                    let span = Span { start: sentence[first].span.start, end: sentence[last].span.end };
-                    match stance(sentence, &places) {
-                        Stance::Claimed => found.push(Said { span, denied: false }),
-                        Stance::Denied => found.push(Said { span, denied: true }),
-                        Stance::Neither => {}
-                    }
-                    start = first + 1;
-                }
-                _ => start += 1,
+        let mut all: Vec<Vec<usize>> = Vec::new();
+        for places in (0..sentence.len()).filter_map(|start| self.places(sentence, start)) {
+            // Of two that end with the same word the later one is the closer.
+            if all.last().is_some_and(|before| before.last() == places.last()) {
+                all.pop();
             }
+            all.push(places);
         }
-        found
+        let said = |places: Vec<usize>| {
+            let (first, last) = (*places.first()?, *places.last()?);
+            let span = Span { start: sentence.get(first)?.span.start, end: sentence.get(last)?.span.end };
+            let denied = match stance(sentence, &places) {
+                Stance::Claimed => false,
+                Stance::Denied => true,
+                Stance::Neither => return None,
+            };
+            Some(Said { span, denied, contrasted: contrasted(sentence, first) })
+        };
+        all.into_iter().filter_map(said).collect()
     }
 
     /// The places of the phrase's words when it begins at `start`, ending as early as it can; `None` when it is not there.
@@ -86,7 +90,8 @@ impl Phrase {
                 Some(before) => {
                     for (from, _) in before {
                         let end = (from + BETWEEN + 2).min(sentence.len());
-                        for (place, token) in sentence.iter().enumerate().take(end).skip(from + 1) {
+                        let near = sentence.iter().enumerate().take(end).skip(from + 1);
+                        for (place, token) in near.take_while(|(_, token)| token.gap == Gap::Space) {
                             if word.matches(token) && here.iter().all(|(known, _)| *known != place) {
                                 here.push((place, *from));
                             }
@@ -236,6 +241,38 @@ const FRESH_STARTS: &[&str] = &[
     "now",
     "even",
 ];
+/// After `or`, these begin another case.
+const OTHER_CASES: &[&str] = &[
+    "it",
+    "they",
+    "we",
+    "there",
+    "he",
+    "she",
+    "i",
+    "then",
+    "else",
+    "otherwise",
+    "will",
+    "would",
+    "can",
+    "could",
+];
+/// Words after which a clause speaks of what this is set against.
+const CONTRASTS: &[&str] = &["unlike", "whereas", "while", "whilst"];
+/// The same in two words.
+const CONTRAST_PAIRS: &[(&str, &str)] = &[
+    ("contrast", "to"),
+    ("contrast", "with"),
+    ("contrary", "to"),
+    ("opposed", "to"),
+    ("opposite", "to"),
+    ("opposite", "of"),
+    ("compared", "to"),
+    ("compared", "with"),
+    ("comparison", "to"),
+    ("comparison", "with"),
+];
 /// Verbs that may come between a noun and its `not`.
 const AUXILIARIES: &[&str] = &[
     "is", "are", "was", "were", "be", "do", "does", "did", "will", "would", "can", "could", "has", "have",
@@ -282,6 +319,21 @@ fn stance(sentence: &[Token], places: &[usize]) -> Stance {
     } else {
         Stance::Denied
     }
+}
+
+/// Whether the clause says what it says of something else before `first`: `unlike the …`, `whereas the …`.
+fn contrasted(sentence: &[Token], first: usize) -> bool {
+    for place in (first.saturating_sub(LONGEST_LOOK)..first).rev() {
+        let (Some(token), Some(next)) = (sentence.get(place), sentence.get(place + 1)) else { return false };
+        if next.gap != Gap::Space || matches!(token.text.as_str(), "but" | "however" | "yet") {
+            return false;
+        }
+        let pair = CONTRAST_PAIRS.iter().any(|(one, two)| *one == token.text && *two == next.text);
+        if pair || CONTRASTS.contains(&token.text.as_str()) {
+            return true;
+        }
+    }
+    false
 }
 
 /// A denial between the words of the phrase: `comes not to rest`.
@@ -350,6 +402,8 @@ fn begins_clause(sentence: &[Token], at: usize, place: usize) -> bool {
         // `as it settles`, but not `as fast as`
         "as" => matches!(word(at + 1), "it" | "the" | "they" | "we" | "there"),
         "and" => at < place && begins_afresh(word(at + 1)),
+        // `or it settles`, but not `or settle`
+        "or" => at < place && OTHER_CASES.contains(&word(at + 1)),
         // `not driven it settles`, but not `does not let it settle`
         "it" | "they" | "we" if before != "that" => {
             at < place && (word(at + 1).ends_with('s') || AUXILIARIES.contains(&word(at + 1)))
@@ -432,7 +486,20 @@ mod tests {
                 ("It swings to the left and right about it.", ""),
                 ("About it, it swings.", ""),
                 ("It swings. About that.", ""),
-                ("Swings, swings about", "+Swings, swings about +swings about"),
+                ("Swings, swings about", "+swings about"),
+                // the closest words are the phrase
+                ("It swings and swings about.", "+swings about"),
+            ],
+        );
+        check(
+            "never stop*",
+            &[
+                ("It never really stops.", "+never really stops"),
+                ("Never falling over, and stops in the end.", ""),
+                ("It never falls; stops", ""),
+                ("It never falls: stops", ""),
+                ("It never falls – stops", ""),
+                ("It never (falls) stops", ""),
             ],
         );
         check(
@@ -490,6 +557,10 @@ mod tests {
                 ("It will not do so and settle.", "-settle"),
                 ("It does not swing and settle.", "-settle"),
                 ("It does not, in general, settle.", "-settle"),
+                ("It does not swing or settle.", "-settle"),
+                // another case
+                ("It does not swing or it settles.", "+settles"),
+                ("It does not swing or will settle.", "+settle"),
                 // no denial at all
                 ("It not only swings but also settles.", "+settles"),
                 ("No doubt it settles.", "+settles"),
@@ -523,6 +594,29 @@ mod tests {
             &[("It won't do so for ever.", "-for ever"), ("It goes on for ever.", "+for ever")],
         );
         check("stable", &[("It is not as stable as the other.", "-stable")]);
+    }
+
+    #[test]
+    fn what_is_said_of_the_other_is_told_apart() {
+        let phrase = Phrase::new("stable");
+        for (text, contrasted) in [
+            ("Unlike the stable bottom, it falls.", true),
+            ("It falls, unlike at the stable bottom.", true),
+            ("It falls whereas the other is stable.", true),
+            ("While the bottom is stable, it falls.", true),
+            ("In contrast to the stable bottom it falls.", true),
+            ("Compared to a stable one, it falls.", true),
+            ("It falls, as opposed to the stable one.", true),
+            ("In contrast, it is stable.", false),
+            ("Unlike the bottom, it is stable.", false),
+            ("While it swings but it is stable.", false),
+            ("It is stable, unlike the other.", false),
+            ("It is stable.", false),
+        ] {
+            let said: Vec<_> = sentences(text).iter().flat_map(|sentence| phrase.said_in(sentence)).collect();
+            let found: Vec<bool> = said.iter().map(|said| said.contrasted).collect();
+            assert_eq!(found, [contrasted], "{text:?}");
+        }
     }
 
     #[test]

@@ -94,7 +94,8 @@ pub(super) fn judge(
         ..Evidence::default()
     };
     let too_few = best.all.points < demands.min_points;
-    if !best.agrees() && !(too_few && figure.is_some()) {
+    let figure_decides = too_few && figure.is_some();
+    if !best.agrees() && !figure_decides {
         return Mark::wrong("plot.differs", evidence(best.why_not(figure.is_some())));
     }
     let so_far = if best.agrees() { "The data agrees with the curve" } else { "The data does not agree" };
