@@ -1,11 +1,13 @@
 use super::comma_to_point::{Pointed, comma_in_list_text, commas_read, settled};
 use super::decimal_commas::decimal_comma_between;
 use super::problem::{Problem, quote};
+use super::wrapping::{unwrapped, without_unit};
 use super::{AnswerSheet, AnswerValue, Decimal};
 use crate::algebra::{Expression, ExpressionError, Polynomial, Rational};
 use crate::lti::TransferFunction;
 use crate::names::nearest;
 use crate::source::{Finding, Node, Span, Value};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 const CODE: &str = "transfer_function.unreadable";
@@ -24,7 +26,7 @@ pub(super) fn read_transfer_function(
     sheet: &AnswerSheet,
     source: &str,
 ) -> Result<(AnswerValue, Vec<Finding>), Box<Finding>> {
-    let mut reader = Reader { symbols: &sheet.symbols, source, commas: Vec::new() };
+    let mut reader = Reader { symbols: &sheet.symbols, source, commas: Vec::new(), variable: None };
     let (transfer_function, formula) = match &node.value {
         Value::Scalar(text) => reader.formula(node, text)?,
         Value::Mapping(entries) => (reader.coefficients(node, entries)?, None),
@@ -70,7 +72,8 @@ fn parse_formula(text: &str, symbols: &Symbols) -> Result<(TransferFunction, Opt
         };
     }
     let read = |expression: Expression| {
-        let (num, den) = expression.rational_function("s", symbols)?;
+        let variable = variable(&expression, symbols).unwrap_or("s");
+        let (num, den) = expression.rational_function(variable, symbols)?;
         Ok((num, den, expression))
     };
     let (num, den, formula) =
@@ -79,6 +82,25 @@ fn parse_formula(text: &str, symbols: &Symbols) -> Result<(TransferFunction, Opt
         Some(g) => Ok((g, Some(formula))),
         None => Err(Problem::new(CODE, start, text.len(), "The denominator is zero.").help(HELP)),
     }
+}
+
+/// `S` where it can only be meant for `s`; `None` when neither is there.
+fn variable(expression: &Expression, symbols: &Symbols) -> Option<&'static str> {
+    let used = expression.symbols();
+    let has = |name: &str| used.iter().any(|symbol| symbol.name == name);
+    if has("s") { Some("s") } else { (has("S") && !symbols.contains_key("S")).then_some("S") }
+}
+
+/// Without marks of mathematics, a full stop and a unit around it; byte for byte as long as it was.
+fn bare<'t>(text: &'t str, symbols: &Symbols) -> Cow<'t, str> {
+    let known = |letter: &str| symbols.contains_key(letter);
+    let outer = unwrapped(text).into_owned();
+    let outer = unwrapped(&without_unit(&outer, known)).into_owned();
+    let from = after_name(&outer);
+    let body = unwrapped(&outer[from..]).into_owned();
+    let body = without_unit(&body, known).into_owned();
+    let bare = format!("{}{}", &outer[..from], unwrapped(&body));
+    if bare == text { Cow::Borrowed(text) } else { Cow::Owned(bare) }
 }
 
 /// Where the formula begins: what stands before the last `=` is a name.
@@ -127,6 +149,8 @@ struct Reader<'a> {
     symbols: &'a Symbols,
     source: &'a str,
     commas: Vec<(Span, String)>,
+    /// What numerator and denominator were written in so far.
+    variable: Option<&'static str>,
 }
 
 impl Reader<'_> {
@@ -152,6 +176,7 @@ impl Reader<'_> {
         node: &Node,
         text: &str,
     ) -> Result<(TransferFunction, Option<Expression>), Box<Finding>> {
+        let text = &bare(text, self.symbols);
         let from = after_name(text);
         // In MATLAB's lists commas separate.
         let from = if matlab(&text[from..]).is_some() { text.len() } else { from };
@@ -227,9 +252,13 @@ impl Reader<'_> {
                         None => Ok(Polynomial::new(words)),
                     };
                 }
-                let text = self.pointed(node, text, 0, settled)?;
-                let (num, den) = Expression::parse_typed(&text)
-                    .and_then(|expression| expression.rational_function("s", self.symbols))
+                let text = self.pointed(node, &unwrapped(text), 0, settled)?;
+                let expression = Expression::parse_typed(&text)
+                    .map_err(|error| self.place(formula_problem(error, 0), node))?;
+                // `s` and `S` in one answer are two letters.
+                self.variable = self.variable.or(variable(&expression, self.symbols));
+                let (num, den) = expression
+                    .rational_function(self.variable.unwrap_or("s"), self.symbols)
                     .map_err(|error| self.place(formula_problem(error, 0), node))?;
                 match den.leading() {
                     Some(divisor) if den.degree() == 0 => Ok(num.scale(&(Rational::ONE / divisor))),
@@ -320,6 +349,18 @@ mod tests {
             "{num: [0, −0.06, 0], den: ['0.0132', 0.0024, 4.1202e-1, 0.05886]}",
             "tf([-0.06 0], [0.0132 0.0024 0.41202 0.05886])",
             "tf([-0.06, 0], [0.0132, 0.0024, 0.41202, 0.05886]);",
+            "$G(s) = -0.06s / (0.0132s^3 + 0.0024s^2 + 0.41202s + 0.05886)$",
+            r"$$\frac{-0.06 s}{0.0132 s^3 + 0.0024 s^2 + 0.41202 s + 0.05886}$$",
+            r"G(s) = \(-0.06s / (0.0132s^3 + 0.0024s^2 + 0.41202s + 0.05886)\).",
+            r"'\[-0.06s / (0.0132s^3 + 0.0024s^2 + 0.41202s + 0.05886)\]'",
+            "'`-0.06s / (0.0132s^3 + 0.0024s^2 + 0.41202s + 0.05886)`'",
+            "-0.06s / (0.0132s^3 + 0.0024s^2 + 0.41202s + 0.05886).",
+            "-0.06s / (0.0132s^3 + 0.0024s^2 + 0.41202s + 0.05886) rad/N",
+            "-0.06s / (0.0132s^3 + 0.0024s^2 + 0.41202s + 0.05886) rad/(N)",
+            "G(s) = -0.06s / (0.0132s^3 + 0.0024s^2 + 0.41202s + 0.05886) (rad/N).",
+            "$-0.06s / (0.0132s^3 + 0.0024s^2 + 0.41202s + 0.05886)$ rad/N",
+            "G(s) = -0.06S / (0.0132S^3 + 0.0024S^2 + 0.41202S + 0.05886)",
+            "{num: -0.06S, den: 0.0132S^3 + 0.0024S^2 + 0.41202S + 0.05886}",
         ] {
             if yaml == "'{num: [x]}'" {
                 assert!(read(yaml).is_err());
@@ -350,6 +391,11 @@ mod tests {
                 "61 digits",
             ),
             ("1/(s + q)", "q", "`q`"),
+            ("1/(s + S)", "S", "`S`"),
+            ("{num: s, den: S + 1}", "S", "`S`"),
+            ("$1$ / $(s + 1)$", "$", "`$`"),
+            ("1/(s + 1) deg/N", "1/(s + 1) deg", "two ways"),
+            ("1/(s + 1) m/N", "1/(s + 1) m", "two ways"),
             ("1/(s + 1", "(", "never closed"),
             ("{num: [1], den: [0, 0]}", "{num: [1], den: [0, 0]}", "zero"),
             ("{num: [1]}", "{num: [1]}", "denominator of the transfer function is missing"),

@@ -18,6 +18,7 @@ mod series;
 mod sheet;
 mod value;
 mod words;
+mod wrapping;
 
 pub use answer::{
     Answer, AnswerValue, Decimal, Figure, FinalValue, Series, Student, Submission, TypedComplex, Unreadable,

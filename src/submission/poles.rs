@@ -21,6 +21,45 @@ pub(super) struct ReadPole {
 ///
 /// `a ± bj` gives two; a multiplicity repeats the pole.
 pub(super) fn parse_poles(text: &str) -> Result<Vec<ReadPole>, Problem> {
+    listed(text).or_else(|problem| row(text).ok_or(problem))
+}
+
+/// MATLAB's row without commas: `-0.143 -0.0195+5.59i -0.0195-5.59i`.
+///
+/// `None` unless each piece is a whole pole, and none could be a part of the one before it.
+fn row(text: &str) -> Option<Vec<ReadPole>> {
+    let body = text.trim().trim_end_matches(';');
+    let inner = body.strip_prefix('[').and_then(|rest| rest.strip_suffix(']'));
+    let bare = inner.unwrap_or(body);
+    if bare.contains([',', ';', '&', '\n', '(']) {
+        return None;
+    }
+    let (mut poles, mut from): (Vec<ReadPole>, usize) = (Vec::new(), 0);
+    let (mut pieces, mut complex, mut negative) = (0, inner.is_some(), true);
+    for piece in bare.split_whitespace() {
+        let at = from + text[from..].find(piece)?;
+        from = at + piece.len();
+        let read = listed(piece).ok()?;
+        let without_real_part = read.iter().any(|pole| pole.re == Decimal::absent());
+        // `-1 +2i` is one pole.
+        if pieces > 0 && without_real_part {
+            return None;
+        }
+        pieces += 1;
+        complex |= !without_real_part && read.iter().any(|pole| !pole.im.is_zero());
+        negative &= piece.starts_with(is_minus);
+        poles.extend(read.into_iter().map(|pole| ReadPole {
+            start: at + pole.start,
+            end: at + pole.end,
+            ..pole
+        }));
+    }
+    let clear = complex || (negative && pieces > 2);
+    (pieces > 1 && clear && poles.len() <= MAX_POLES).then_some(poles)
+}
+
+/// Poles with separators between them.
+fn listed(text: &str) -> Result<Vec<ReadPole>, Problem> {
     let mut cursor = Cursor { text, at: 0 };
     let mut poles = Vec::new();
     cursor.skip_space();
@@ -31,7 +70,7 @@ pub(super) fn parse_poles(text: &str) -> Result<Vec<ReadPole>, Problem> {
             cursor.eat_any(&[']', '}']);
             cursor.skip_separators();
         }
-        if cursor.at == text.len() {
+        if cursor.at == text.len() || (!poles.is_empty() && is_remark(cursor.rest())) {
             return Ok(poles);
         }
         let found = cursor.item()?;
@@ -51,6 +90,62 @@ pub(super) fn parse_poles(text: &str) -> Result<Vec<ReadPole>, Problem> {
             return Err(cursor.unreadable(here, text.len()));
         }
     }
+}
+
+/// `all in the left half plane`: words about the poles before it, and none about how many there are.
+fn is_remark(text: &str) -> bool {
+    const ABOUT: &[&str] = &[
+        "plane",
+        "poles",
+        "lhp",
+        "rhp",
+        "stable",
+        "unstable",
+        "conjugate",
+        "conjugates",
+        "real",
+        "complex",
+        "parts",
+    ];
+    const BESIDE: &[&str] = &[
+        "all",
+        "both",
+        "in",
+        "the",
+        "left",
+        "right",
+        "half",
+        "open",
+        "hand",
+        "s",
+        "are",
+        "is",
+        "lie",
+        "they",
+        "so",
+        "hence",
+        "therefore",
+        "thus",
+        "system",
+        "it",
+        "with",
+        "negative",
+        "positive",
+        "part",
+        "have",
+        "of",
+        "and",
+    ];
+    let lower = text.to_lowercase();
+    let words: Vec<&str> = lower.split(|c: char| c.is_whitespace() || "-.,;()".contains(c)).collect();
+    let mut words = words.into_iter().filter(|word| !word.is_empty()).peekable();
+    let mut about = false;
+    words.peek().is_some()
+        && words.all(|word| {
+            about |= ABOUT.contains(&word);
+            ABOUT.contains(&word) || BESIDE.contains(&word)
+        })
+        && about
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -400,6 +495,9 @@ fn unit_size() -> Decimal {
 
 fn times(words: &str) -> Option<usize> {
     let lower = words.to_lowercase();
+    if is_remark(&lower) {
+        return Some(1);
+    }
     if lower
         .contains(|c: char| !c.is_alphanumeric() && !c.is_whitespace() && !matches!(c, '×' | '=' | ':' | '-'))
     {
@@ -517,6 +615,15 @@ mod tests {
         check("-1 and -2", &[("-1", "0"), ("-2", "0")]);
         check("", &[]);
         check("[]", &[]);
+        check("-1, -2, all in the left half plane", &[("-1", "0"), ("-2", "0")]);
+        check("-1, -2 (both in the LHP)", &[("-1", "0"), ("-2", "0")]);
+        check("-1 and -2, so the system is stable.", &[("-1", "0"), ("-2", "0")]);
+        check("-1 -2+3i -2-3i", &[("-1", "0"), ("-2", "3"), ("-2", "-3")]);
+        check("-1 -2±3j", &[("-1", "0"), ("-2", "3"), ("-2", "-3")]);
+        check("-1 -2 -3", &[("-1", "0"), ("-2", "0"), ("-3", "0")]);
+        check("[-1 2]", &[("-1", "0"), ("2", "0")]);
+        check("-1 +2i", &[("-1", "2")]);
+        check("−3 −1+2i", &[("-3", "0"), ("-1", "2")]);
     }
 
     #[test]
@@ -560,6 +667,11 @@ mod tests {
             ("-1/3", "poles.multiplicity", "/3"),
             ("-1 (repeated)", "poles.multiplicity", "(repeated)"),
             ("-1 2", "poles.multiplicity", "2"),
+            ("-3 -1 +2i", CODE, "-3 -1"),
+            ("-3 -1 +2i -1 -2i", CODE, "-3 -1"),
+            ("-3 -2 +1e-3i", CODE, "-3 -2"),
+            ("-1, -2, zero", CODE, "zero"),
+            ("-1, -2, all double", CODE, "all double"),
             ("-1 (2)", "poles.multiplicity", "(2)"),
             ("-1 (x0)", "poles.multiplicity", "(x0)"),
             ("-1 (x1000000)", "poles.multiplicity", "(x1000000)"),

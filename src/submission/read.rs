@@ -10,9 +10,10 @@ use super::words::{
     NONLINEARITY_WORDS, SHAPE_WORDS, STABILITY_WORDS, half_a_shape, nonlinearities_named, shapes_named,
     stabilities_named,
 };
+use super::wrapping::{unwrapped, without_marks};
 use super::{
-    Answer, AnswerSheet, AnswerValue, Attachments, Field, FieldKind, MAX_ATTACHMENT_BYTES, Submission,
-    TypedComplex, Unreadable, nonlinearity_word, people, shape_word, stability_word,
+    Answer, AnswerSheet, AnswerValue, Attachments, Decimal, Field, FieldKind, MAX_ATTACHMENT_BYTES,
+    Submission, TypedComplex, Unreadable, nonlinearity_word, people, shape_word, stability_word,
 };
 use crate::names::nearest;
 use crate::source::{
@@ -333,8 +334,9 @@ impl<'a> Reader<'a> {
             FieldKind::Poles => self.poles(node).map(AnswerValue::Poles),
             FieldKind::Value => {
                 let text = scalar(node, "value.unreadable", "A single value is asked for here")?;
-                let pointed =
-                    Pointed::read(text, 0, settled([text])).map_err(|problem| self.place(problem, node))?;
+                let text = &unwrapped(text);
+                let pointed = Pointed::read(text, 0, settled([&**text]))
+                    .map_err(|problem| self.place(problem, node))?;
                 let value = parse_value(&pointed.text).map_err(|problem| self.place(problem, node))?;
                 self.say_commas(&pointed.places(node, self.text));
                 Ok(AnswerValue::Value(value))
@@ -410,6 +412,7 @@ impl<'a> Reader<'a> {
         settled: bool,
         commas: &mut Vec<(Span, String)>,
     ) -> Result<Vec<TypedComplex>, Box<Finding>> {
+        let text = &without_marks(text);
         let pointed = match only_decimal_in_poles(text, entry) {
             true => Pointed::read(text, 0, settled),
             false => Pointed::as_typed(text),
@@ -433,11 +436,13 @@ impl<'a> Reader<'a> {
         settled: bool,
         commas: &mut Vec<(Span, String)>,
     ) -> Result<Vec<TypedComplex>, Box<Finding>> {
-        const HELP: &str = "Write a pole like `-2+3.1j`, or `{value: -1, multiplicity: 2}`.";
+        const HELP: &str =
+            "Write a pole like `-2+3.1j`, `{re: -2, im: 3.1}` or `{value: -1, multiplicity: 2}`.";
         match &item.value {
             Value::Scalar(text) => self.poles_of(item, text, entry, settled, commas),
             Value::Mapping(entries) => {
                 let (mut value, mut times) = (None, 1);
+                let mut parts: [Option<Decimal>; 2] = [None, None];
                 for (key, span, node) in entries {
                     let text = scalar(node, "poles.unreadable", "A number is asked for here")?;
                     match plain_key(key).as_str() {
@@ -450,6 +455,16 @@ impl<'a> Reader<'a> {
                                 return Err(Box::new(finding.at(node.span)));
                             }
                         },
+                        part @ ("re" | "real" | "im" | "imag" | "imaginary") => {
+                            let number = Pointed::as_typed(text).and_then(|pointed| {
+                                Decimal::parse(&pointed.text).map_err(|error| {
+                                    Problem::new("poles.unreadable", 0, text.len(), format!("{error}."))
+                                        .help(HELP)
+                                })
+                            });
+                            let number = number.map_err(|problem| self.place(problem, node))?;
+                            parts[usize::from(part.starts_with('i'))] = Some(number);
+                        }
                         _ => {
                             let message = format!("{} is not a part of a pole.", quote(key));
                             return Err(Box::new(
@@ -458,9 +473,16 @@ impl<'a> Reader<'a> {
                         }
                     }
                 }
-                let Some((node, text)) = value else {
+                if value.is_none()
+                    && let [Some(_), _] | [_, Some(_)] = parts
+                {
+                    let [re, im] = parts.map(|part| part.unwrap_or_else(Decimal::absent));
+                    return Ok(vec![TypedComplex { re, im, span: item.span }; times]);
+                }
+                let Some((node, text)) = value.filter(|_| parts == [None, None]) else {
                     let finding =
-                        Finding::error("poles.unreadable", "This pole has no `value`.").with_help(HELP);
+                        Finding::error("poles.unreadable", "A pole has either a `value`, or `re` and `im`.")
+                            .with_help(HELP);
                     return Err(Box::new(finding.at(item.span)));
                 };
                 let once = self.poles_of(node, text, true, settled, commas)?;

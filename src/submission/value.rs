@@ -6,28 +6,28 @@ const HELP: &str = "Write a number such as `0`, `-0.143` or `1e-3`, or `unbounde
 
 /// A value or a limit as typed: `0`, `≈ -0.143 rad`, `unbounded`, `-∞`, `does not exist` …
 pub(super) fn parse_value(text: &str) -> Result<FinalValue, Problem> {
-    if let Some(value) = limit_word(text) {
+    if let Some(value) = limit_word(without_name(text)) {
         return Ok(value);
     }
     let unreadable = |start: usize, end: usize| {
         Problem::new("value.unreadable", start, end, format!("{} is not a value we can read.", quote(text)))
             .help(HELP)
     };
-    let start = text.len() - strip_hedge(text).len();
+    let start = text.len() - strip_hedge(without_name(text)).len();
     let body = &text[start..];
     let (sign, unsigned) = match body.chars().next() {
         Some(c) if is_minus(c) => (true, body[c.len_utf8()..].trim_start()),
         Some('+') => (false, body[1..].trim_start()),
         _ => (false, body),
     };
-    if unsigned.trim().trim_end_matches('.').eq_ignore_ascii_case("zero") {
+    if without_remark(unsigned).trim().trim_end_matches('.').eq_ignore_ascii_case("zero") {
         return parse_value("0");
     }
     let Some((number, length)) = scan(unsigned) else {
         return Err(unreadable(0, text.len()));
     };
     let digits_at = text.len() - unsigned.len();
-    let rest = &unsigned[length..];
+    let rest = without_remark(&unsigned[length..]);
     let number = number.map_err(|error| {
         Problem::new("value.unreadable", start, digits_at + length, format!("{error}.")).help(HELP)
     })?;
@@ -121,13 +121,56 @@ fn unit(text: &str) -> Unit {
     }
 }
 
-/// Without `≈`, `~`, `=`, `about`, `approximately` in front.
+/// What stands after `θ =`, `y(∞) =`, `final value:`; all of it when no name stands in front.
+fn without_name(text: &str) -> &str {
+    const NAMES: &[&str] = &["final value", "initial value", "steady state", "steady state value"];
+    // `t = 0` and `t → ∞` say when.
+    const NO_NAMES: &[&str] = &["t", "s", "not", "never", "no", "is", "if", "at", "time"];
+    let Some((name, value)) = text.rsplit_once(['=', '→', ':', '≈']) else { return text };
+    let name = name.trim().to_lowercase();
+    let (head, argument) = name.split_once('(').unwrap_or((&name, ")"));
+    let head = head.trim().trim_start_matches('\\');
+    let letters = |c: char| c.is_alphanumeric() || matches!(c, '_' | '{' | '}' | '∞');
+    let one = head.starts_with(char::is_alphabetic) && head.chars().all(letters);
+    let argument = argument.ends_with(')') && argument.len() <= 16 && !argument.contains(['=', ',']);
+    if (one && argument && !NO_NAMES.contains(&head)) || NAMES.contains(&head) { value } else { text }
+}
+
+/// Without `(steady state)` at the end.
+fn without_remark(text: &str) -> &str {
+    const REMARKS: &[&str] = &[
+        "steady state",
+        "steady-state",
+        "at steady state",
+        "in steady state",
+        "final value",
+        "at rest",
+        "rest",
+        "equilibrium",
+        "the equilibrium",
+        "zero",
+        "stable",
+        "it settles",
+        "settles",
+        "limit",
+        "initial value",
+        "rad",
+    ];
+    let body = text.trim_end().trim_end_matches('.');
+    let remark = body.strip_suffix(')').and_then(|body| body.rsplit_once('('));
+    match remark {
+        Some((before, remark)) if REMARKS.contains(&remark.trim().to_lowercase().as_str()) => before,
+        _ => text,
+    }
+}
+
+/// Without `≈`, `~`, `=`, `about`, `approaches`, `tends to` in front.
 fn strip_hedge(text: &str) -> &str {
     let mut rest = text.trim_start();
     loop {
         let before = rest;
         rest = rest.trim_start_matches(['≈', '~', '=', '≅', '≃', '→']).trim_start();
-        for word in ["approximately ", "approx. ", "approx ", "about ", "ca. ", "nearly "] {
+        for word in IN_FRONT {
             if rest.get(..word.len()).is_some_and(|head| head.eq_ignore_ascii_case(word)) {
                 rest = rest[word.len()..].trim_start();
             }
@@ -137,6 +180,37 @@ fn strip_hedge(text: &str) -> &str {
         }
     }
 }
+
+/// What may stand in front of a number without changing it.
+const IN_FRONT: &[&str] = &[
+    "approximately ",
+    "approx. ",
+    "approx ",
+    "about ",
+    "ca. ",
+    "nearly ",
+    "it ",
+    "the response ",
+    "the output ",
+    "the angle ",
+    "the final value is ",
+    "is ",
+    "approaches ",
+    "tends to ",
+    "tends towards ",
+    "tends toward ",
+    "goes to ",
+    "goes towards ",
+    "goes back to ",
+    "converges to ",
+    "settles to ",
+    "settles at ",
+    "decays to ",
+    "returns to ",
+    "comes back to ",
+    "stays at ",
+    "remains at ",
+];
 
 /// `unbounded`, `∞`, `diverges`, `does not exist`, `goes to minus infinity` …
 fn limit_word(text: &str) -> Option<FinalValue> {
@@ -200,7 +274,8 @@ fn only_no_limit(words: &str) -> bool {
 
 const FILLERS: &[&str] = &[
     "it", "its", "the", "a", "an", "is", "to", "towards", "toward", "response", "value", "final", "output",
-    "angle", "and", "hence", "so", "s", "limit", "does", "steady", "state",
+    "angle", "and", "hence", "so", "s", "limit", "does", "steady", "state", "rad", "radian", "radians",
+    "rads", "unstable",
 ];
 const INFINITY: &[&str] = &["infinity", "inf", "infinite", "oo", "infty"];
 const GROWS: &[&str] = &[
@@ -269,6 +344,23 @@ mod tests {
             ("~0", number("0")),
             ("approximately 0.5", number("0.5")),
             ("zero", number("0")),
+            ("approaches 0", number("0")),
+            ("tends to 0", number("0")),
+            ("goes to zero", number("0")),
+            ("It converges to 0.", number("0")),
+            ("θ = 0", number("0")),
+            ("theta = 0", number("0")),
+            ("θ(∞) = 0.5 rad", number("0.5")),
+            ("\\theta = 0", number("0")),
+            ("y(t → ∞) = 0", number("0")),
+            ("θ → -∞", MinusInfinity),
+            ("0 (steady state)", number("0")),
+            ("zero (steady state)", number("0")),
+            ("0 rad (at rest)", number("0")),
+            ("final value: 0", number("0")),
+            ("∞ rad", Unbounded),
+            ("-∞ rad", MinusInfinity),
+            ("unbounded (unstable)", Unbounded),
             ("Zero.", number("0")),
             ("unbounded", Unbounded),
             ("Unbounded.", Unbounded),
@@ -312,6 +404,15 @@ mod tests {
             ("5 ms", "value.unit", "ms", "SI"),
             ("5 apples", "value.unreadable", "apples", "number"),
             ("does not diverge", "value.unreadable", "does not diverge", "number"),
+            ("t = 0", "value.unreadable", "t = 0", "number"),
+            ("t → ∞", "value.unreadable", "t → ∞", "number"),
+            ("y(t) → 0 as t → ∞", "value.unreadable", "y(t) → 0 as t → ∞", "number"),
+            ("θ != 0", "value.unreadable", "θ != 0", "number"),
+            ("not = 0", "value.unreadable", "not = 0", "number"),
+            ("does not approach 0", "value.unreadable", "does not approach 0", "number"),
+            ("0 (not really)", "value.unreadable", "(not really)", "number"),
+            ("unstable", "value.unreadable", "unstable", "number"),
+            ("goes from 1 to 0", "value.unreadable", "goes from 1 to 0", "number"),
             ("not infinite", "value.unreadable", "not infinite", "number"),
             ("no", "value.unreadable", "no", "number"),
             ("finite", "value.unreadable", "finite", "number"),
