@@ -7,6 +7,10 @@ use serde_yaml::{Error, Location};
 pub(super) fn read(source: &SourceText) -> Result<(LabFile, Node), Finding> {
     let tree = crate::source::parse(&source.text).map_err(|error| {
         let finding = Finding::error("lab.yaml", error.message);
+        let finding = match error.help {
+            Some(help) => finding.with_help(author_help(help)),
+            None => finding,
+        };
         match error.span {
             Some(span) => finding.at(span),
             None => finding,
@@ -17,6 +21,12 @@ pub(super) fn read(source: &SourceText) -> Result<(LabFile, Node), Finding> {
     serde_yaml::from_str_with_options(&source.text, options)
         .map_err(|error| finding(&error, &tree))
         .map(|file| (file, tree))
+}
+
+/// A sentence for students as a help for authors: a small letter first, no full stop.
+fn author_help(help: &str) -> String {
+    let mut rest = help.trim_end_matches('.').chars();
+    rest.next().map_or_else(String::new, |first| format!("{}{}", first.to_lowercase(), rest.as_str()))
 }
 
 fn finding(error: &Error, tree: &Node) -> Finding {
@@ -36,7 +46,12 @@ fn finding(error: &Error, tree: &Node) -> Finding {
                 "sequence start" => "a list (`[a, b]`, or lines that begin with `- `) is wanted here",
                 _ => "a single value is wanted here, not a list or a mapping",
             };
-            ("lab.shape", wanted.to_owned(), None)
+            let help = match *expected {
+                "mapping start" => "begin a new line with the key, indented further",
+                "sequence start" => "put brackets around a single entry",
+                _ => "write the value after the key, without brackets",
+            };
+            ("lab.shape", wanted.to_owned(), Some(help.to_owned()))
         }
         Error::NullIntoString { .. } => ("lab.shape", "a value is missing here".to_owned(), None),
         Error::ExpectedMappingEndAfterEnumVariantValue { .. } => {

@@ -29,6 +29,8 @@ pub enum Value {
 #[error("{message}")]
 pub struct YamlError {
     pub message: String,
+    /// What to do, as a sentence. `None` when the text breaks the rules of YAML at this place.
+    pub help: Option<&'static str>,
     pub span: Option<Span>,
 }
 
@@ -151,6 +153,7 @@ pub fn parse(text: &str) -> Result<Node, YamlError> {
     match first_duplicate(&tree) {
         Some((key, span)) => Err(YamlError {
             message: format!("the key `{}` is given twice", sanitize(key)),
+            help: Some("Keep one of the two."),
             span: Some(span),
         }),
         None => Ok(tree),
@@ -168,7 +171,10 @@ pub fn parse_with_duplicates(text: &str) -> Result<Node, YamlError> {
     serde_yaml::from_str_with_options::<Spanned<Raw>>(body, options())
         .map(|raw| raw.into_node(body))
         .map(|node| if start == 0 { node } else { node.shift(start) })
-        .map_err(|error| YamlError { message: plain_message(&error), span: place(&error, body).map(shifted) })
+        .map_err(|error| {
+            let (message, help) = explained(&error);
+            YamlError { message, help, span: place(&error, body).map(shifted) }
+        })
 }
 
 fn options() -> serde_yaml::Options {
@@ -206,21 +212,63 @@ fn first_duplicate(node: &Node) -> Option<(&str, Span)> {
     }
 }
 
+/// What is wrong, and what to do about it; without a help it is the syntax.
+fn explained(error: &Error) -> (String, Option<&'static str>) {
+    let explain = |message: &str, help| (message.to_owned(), Some(help));
+    match cause(error) {
+        Error::MultipleDocuments { .. } | Error::Budget { breach: BudgetBreach::Documents { .. }, .. } => {
+            explain("a second document starts here (`---`)", "Keep one document in the file, without `---`.")
+        }
+        Error::Budget { breach: BudgetBreach::Nodes { .. } | BudgetBreach::Events { .. }, .. } => {
+            (format!("the file has more than {MOST_NODES} values"), Some(TABLES))
+        }
+        Error::Budget {
+            breach: BudgetBreach::ScalarBytes { .. } | BudgetBreach::InputBytes { .. }, ..
+        } => explain("the file has more than 1,000,000 bytes of text, aliases written out", TABLES),
+        Error::Budget { breach: BudgetBreach::Depth { .. }, .. } => {
+            explain("lists and mappings are nested too deeply here", FLATTER)
+        }
+        Error::RecursiveReferencesRequireWeakTypes { .. } => explain(
+            "an anchor (`&name`) is used within itself",
+            "Write out what is meant; put text that begins with `&` or `*` in quotes.",
+        ),
+        Error::Budget { .. }
+        | Error::AliasReplayCounterOverflow { .. }
+        | Error::AliasReplayLimitExceeded { .. }
+        | Error::AliasExpansionLimitExceeded { .. }
+        | Error::AliasReplayStackDepthExceeded { .. } => {
+            explain("the file repeats itself too often with aliases (`*name`)", "Write out what is meant.")
+        }
+        Error::MergeKeyNotAllowed { .. } => {
+            explain("merge keys (`<<`) are not read", "Write out the keys that are meant.")
+        }
+        Error::UnknownAnchor { .. } => explain(
+            "text that begins with `*` is an alias in YAML, and no anchor has that name",
+            "Put such text in quotes, or on lines of its own after `|`.",
+        ),
+        error => match plain_message(error) {
+            message if message.contains("recursion limit") => {
+                explain("brackets are nested too deeply here", FLATTER)
+            }
+            message => (message, None),
+        },
+    }
+}
+
+const MOST_NODES: &str = "20,000";
+const TABLES: &str = "Keep long tables in a file of their own beside this one, and write its name here.";
+const FLATTER: &str = "Use fewer lists within lists; put text with brackets in quotes.";
+
+/// The error behind an alias that was followed.
+fn cause(error: &Error) -> &Error {
+    match error {
+        Error::AliasError { error, .. } | Error::WithSnippet { error, .. } => cause(error),
+        error => error,
+    }
+}
+
 /// The reader's message without its ` at line …` tail, first letter small, no control characters.
 fn plain_message(error: &Error) -> String {
-    match error {
-        Error::MultipleDocuments { .. } | Error::Budget { breach: BudgetBreach::Documents { .. }, .. } => {
-            return "a second document starts here (`---`)".to_owned();
-        }
-        Error::Budget { .. } => {
-            return "the file nests too deeply, or repeats itself too often with aliases".to_owned();
-        }
-        Error::MergeKeyNotAllowed { .. } => return "merge keys (`<<`) are not read".to_owned(),
-        Error::UnknownAnchor { .. } => {
-            return "text that begins with `*` is an alias in YAML, and no anchor has that name".to_owned();
-        }
-        _ => {}
-    }
     let text = error.to_string();
     let line = text.lines().next().unwrap_or_default();
     let cut = [" at line ", ": line ", " (line ", " at <input>"].iter().filter_map(|m| line.find(m)).min();
@@ -509,6 +557,33 @@ mod tests {
             assert_eq!(place, Some(line), "{text:?}: {error:?}");
             assert!(error.message.contains(words), "{text:?}: {error:?}");
             assert!(!error.message.contains("line "), "{text:?}: {error:?}");
+        }
+    }
+
+    #[test]
+    fn limits_are_told_in_plain_words() {
+        #[track_caller]
+        fn check(text: &str, words: &str, help: &str) {
+            let error = parse(text).unwrap_err();
+            assert!(error.message.contains(words), "{error:?}");
+            assert!(error.help.is_some_and(|found| found.contains(help)), "{error:?}");
+            for jargon in ["budget", "breach", "{", "recursi", "weak", "limit"] {
+                assert!(!error.message.contains(jargon), "{error:?}");
+            }
+        }
+        check(&format!("a: [{}]", vec!["1"; 30_000].join(",")), "more than 20,000 values", "table");
+        check(&format!("a:\n{}", "- 1\n".repeat(30_000)), "more than 20,000 values", "table");
+        check(&format!("a: {}", "x".repeat(1_100_000)), "1,000,000 bytes", "table");
+        check(&format!("a: &a 1\nb: [{}]", vec!["*a"; 150].join(",")), "too often", "Write out");
+        check("a: &a [*a]", "within itself", "quotes");
+        check("a: &a\n  b: *a", "within itself", "quotes");
+        check(&"[".repeat(100), "nested too deeply", "lists within lists");
+        check(&format!("a: {}{}", "[".repeat(20), "]".repeat(20)), "nested too deeply", "lists within lists");
+        check(&"- ".repeat(10_000), "nested too deeply", "lists within lists");
+        check("a: 1\n---\nb: 2", "second document", "one document");
+        check("a: **bold**", "alias", "quotes");
+        for text in ["a: [1, 2\nb: 3", "a: it is: so", "a: \"open", "a:\n\t- x"] {
+            assert_eq!(parse(text).unwrap_err().help, None, "{text}");
         }
     }
 

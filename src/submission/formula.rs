@@ -1,6 +1,6 @@
 use super::comma_to_point::{Pointed, comma_in_list_text, commas_read, settled};
 use super::decimal_commas::decimal_comma_between;
-use super::problem::{Problem, quote};
+use super::problem::{Problem, quote, sentence};
 use super::wrapping::{unwrapped, without_unit};
 use super::{AnswerSheet, AnswerValue, Decimal};
 use crate::algebra::{Expression, ExpressionError, Polynomial, Rational};
@@ -112,14 +112,6 @@ fn formula_problem(error: ExpressionError, offset: usize) -> Problem {
     let help = error.help.as_deref().map_or_else(|| HELP.to_owned(), sentence);
     let message = format!("The formula cannot be read here: {}.", error.message);
     Problem::new(CODE, error.start + offset, error.end + offset, message).help(help)
-}
-
-/// A lower-case fragment as a sentence.
-fn sentence(fragment: &str) -> String {
-    let mut chars = fragment.chars();
-    let first = chars.next().map(|c| c.to_uppercase().collect::<String>()).unwrap_or_default();
-    let end = if fragment.ends_with(['.', '?', '!']) { "" } else { "." };
-    format!("{first}{}{end}", chars.as_str())
 }
 
 /// The two lists of `tf([…], […])`.

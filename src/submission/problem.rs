@@ -37,3 +37,11 @@ pub(super) fn quote(text: &str) -> String {
         None => format!("`{clean}`"),
     }
 }
+
+/// A lower-case fragment as a sentence.
+pub(super) fn sentence(fragment: &str) -> String {
+    let mut chars = fragment.chars();
+    let first = chars.next().map(|c| c.to_uppercase().collect::<String>()).unwrap_or_default();
+    let end = if fragment.ends_with(['.', '?', '!']) { "" } else { "." };
+    format!("{first}{}{end}", chars.as_str())
+}

@@ -3,7 +3,7 @@ use super::decimal_commas::decimal_comma_between;
 use super::figure::parse_figure;
 use super::formula::read_transfer_function;
 use super::poles::{MAX_POLES, ReadPole, parse_poles};
-use super::problem::{Problem, quote};
+use super::problem::{Problem, quote, sentence};
 use super::series::{parse_series, rows_as_text};
 use super::value::parse_value;
 use super::words::{
@@ -17,7 +17,8 @@ use super::{
 };
 use crate::names::nearest;
 use crate::source::{
-    Finding, Node, SourceText, Span, Value, YamlError, decode, decode_within, parse_with_duplicates,
+    DecodeError, Finding, Node, SourceText, Span, Value, YamlError, decode, decode_within,
+    parse_with_duplicates,
 };
 use std::collections::BTreeMap;
 
@@ -52,10 +53,19 @@ pub fn read(
         Err(error) => {
             let mut submission = submission(String::new());
             submission.students = people::nobody(id);
-            submission.findings.push(
-                Finding::error("file.not_text", format!("The file cannot be read as text: {error}."))
-                    .with_help("Save the answers as plain text in UTF-8."),
-            );
+            submission.findings.push(match error {
+                DecodeError::TooLarge { limit, .. } => Finding::error(
+                    "file.too_large",
+                    format!("The file is larger than the {} kB we read.", limit / 1024),
+                )
+                .with_help(
+                    "Keep pictures and long tables in files of their own, and write their names here.",
+                ),
+                DecodeError::NotText { .. } => {
+                    Finding::error("file.not_text", format!("The file cannot be read as text: {error}."))
+                        .with_help("Save the answers as plain text in UTF-8.")
+                }
+            });
             return submission;
         }
     };
@@ -87,12 +97,16 @@ fn tree_is_text(tree: &Node) -> bool {
 }
 
 fn not_yaml(error: YamlError) -> Finding {
-    let message =
-        format!("From here on the file cannot be read as YAML: {}.", error.message.trim_end_matches('.'));
-    let finding = Finding::error("file.not_yaml", message).with_help(
+    let message = match error.help {
+        Some(_) => sentence(&error.message),
+        None => {
+            format!("From here on the file cannot be read as YAML: {}.", error.message.trim_end_matches('.'))
+        }
+    };
+    let finding = Finding::error("file.not_yaml", message).with_help(error.help.unwrap_or(
         "Look for an open quote or bracket, a tab where spaces should indent, or text with `: ` in it; put such text \
          on lines of its own after `|`.",
-    );
+    ));
     Finding { span: error.span, ..finding }
 }
 
@@ -538,7 +552,8 @@ fn named(name: &str, finding: Finding) -> Box<Finding> {
 fn scalar<'n>(node: &'n Node, code: &'static str, wanted: &str) -> Result<&'n str, Box<Finding>> {
     node.as_scalar().ok_or_else(|| {
         let message = format!("{wanted}, and {} is given.", node.kind());
-        Box::new(Finding::error(code, message).at(node.span))
+        let help = "Write it after the key, without brackets: `key: value`.";
+        Box::new(Finding::error(code, message).with_help(help).at(node.span))
     })
 }
 

@@ -85,6 +85,7 @@ impl Checker<'_> {
         let (left, right) = match Expression::parse_equation(&text.value) {
             Ok(sides) => sides,
             Err(error) => {
+                let error = at_function(&text.value, error);
                 self.expression_error("lab.equation", text, error);
                 return None;
             }
@@ -231,6 +232,22 @@ impl Checker<'_> {
             _ => None,
         };
         self.error("lab.equilibrium", place, error.to_string(), help);
+    }
+}
+
+/// Where a bracket stands right after a name (`m*cso(theta)`), what is wrong with the name taken as a function.
+fn at_function(text: &str, error: ExpressionError) -> ExpressionError {
+    let (Some(before), Some("(")) =
+        (text.get(..error.start), text.get(error.start..error.end).map(str::trim))
+    else {
+        return error;
+    };
+    let start = before.trim_end_matches(|c: char| c.is_alphanumeric() || c == '_').len();
+    match Expression::parse(&text[start..]) {
+        Err(own) if own.start == 0 && own.end == before.len() - start && own.help.is_some() => {
+            ExpressionError { start, end: before.len(), ..own }
+        }
+        _ => error,
     }
 }
 

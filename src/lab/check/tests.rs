@@ -160,16 +160,36 @@ fn a_wrong_lab_says_where_and_what_to_do() {
         "did you mean `saturation`?",
     );
     check("\ntotal: 45\n", "\n", "lab", "the key `total` is missing here", "");
-    check("{limit: 5}", "{limit: [5]}", "[", "a single value is wanted here, not a list or a mapping", "");
+    check(
+        "{limit: 5}",
+        "{limit: [5]}",
+        "[",
+        "a single value is wanted here, not a list or a mapping",
+        "write the value after the key, without brackets",
+    );
+    check(
+        "m*l*theta''*cos(theta)",
+        "m*l*theta''*cso(theta)",
+        "cso",
+        "`cso` is not a function we know",
+        "did you mean `cos`?",
+    );
+    check(
+        "m*l*theta''*cos(theta)",
+        "m*l(theta)",
+        "l",
+        "`l` is not a function we know",
+        "write `l*(` to multiply",
+    );
     check(
         "accepted: [9.8, 9.80665, 10]",
         "accepted: 9.8",
         "9.8",
         "a list (`[a, b]`, or lines that begin with `- `) is wanted here",
-        "",
+        "put brackets around a single entry",
     );
     check("title: Dead zone", "title:", "", "a value is missing here", "");
-    check("\ntotal: 45", "\nlab: 45", "lab", "the key `lab` is given twice", "");
+    check("\ntotal: 45", "\nlab: 45", "lab", "the key `lab` is given twice", "keep one of the two");
 
     // Numbers.
     check(
