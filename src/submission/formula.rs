@@ -1,3 +1,4 @@
+use super::beyond_formula::{fraction_rule, without_assignments};
 use super::comma_to_point::{Pointed, comma_in_list_text, commas_read, settled};
 use super::decimal_commas::decimal_comma_between;
 use super::problem::{Problem, quote, sentence};
@@ -164,6 +165,51 @@ impl Reader<'_> {
     }
 
     fn formula(
+        &mut self,
+        node: &Node,
+        text: &str,
+    ) -> Result<(TransferFunction, Option<Expression>), Box<Finding>> {
+        let (text, left_out) =
+            without_assignments(text, self.symbols, CODE).map_err(|problem| self.place(problem, node))?;
+        match fraction_rule(&text) {
+            Ok(None) => {}
+            Ok(Some(rule)) => return Ok((self.over_a_rule(node, &text, rule)?, None)),
+            Err((start, end)) => {
+                let message = "There is a second rule of a fraction here.";
+                return Err(self.place(Problem::new(CODE, start, end, message).help(HELP), node));
+            }
+        }
+        let read = self.one_formula(node, &text)?;
+        let has_letters = |formula: &Expression| {
+            formula.symbols().iter().any(|symbol| self.symbols.contains_key(&symbol.name))
+        };
+        if left_out && read.1.as_ref().is_some_and(has_letters) {
+            let message = "A value is set behind a formula in letters, where the lab's own value is used.";
+            let problem =
+                Problem::new(CODE, 0, text.len(), message).help("Put the numbers into the formula.");
+            return Err(self.place(problem, node));
+        }
+        Ok(read)
+    }
+
+    /// Numerator and denominator above and below a rule, as programs print them.
+    fn over_a_rule(
+        &mut self,
+        node: &Node,
+        text: &str,
+        (start, end): (usize, usize),
+    ) -> Result<TransferFunction, Box<Finding>> {
+        let below = text[end..].find("Continuous-time").map_or(text.len(), |at| end + at);
+        let (above, _) = self.one_formula(node, text[..start].trim_end())?;
+        // As far from the beginning as it was, so that places stay right.
+        let (below, _) = self.one_formula(node, &(" ".repeat(end) + &text[end..below]))?;
+        let (num, den) = (&above.num * &below.den, &above.den * &below.num);
+        TransferFunction::new(num, den).ok_or_else(|| {
+            self.place(Problem::new(CODE, end, text.len(), "The denominator is zero.").help(HELP), node)
+        })
+    }
+
+    fn one_formula(
         &mut self,
         node: &Node,
         text: &str,
@@ -432,5 +478,38 @@ mod tests {
     fn a_forgotten_parenthesis_is_suspected() {
         let (_, notes) = read("0.06*s/0.0132*s^3 + 0.0024*s^2 + 0.412*s + 0.0589").unwrap();
         assert_eq!(notes.iter().map(|n| n.code).collect::<Vec<_>>(), ["transfer_function.improper"]);
+    }
+
+    #[test]
+    fn what_programs_print_is_read() {
+        let expected = read("2s / (s^2 + 3s + 5)").unwrap().0;
+        for yaml in [
+            "|\n    2 s\n    -------------\n    s^2 + 3 s + 5\n",
+            "|\n    G =\n\n      2 s\n    -------------\n    s^2 + 3 s + 5\n\n    Continuous-time transfer function.\n",
+            "2 s\n  -------------\n  s^2 + 3 s + 5",
+            "2s ───── s^2 + 3s + 5",
+            "2s / (s^2 + 3s + 5), g = 9.81",
+            "G(s) = 2s / (s^2 + 3s + 5) where g = 9.81",
+            "s = tf('s'); G = 2s / (s^2 + 3s + 5)",
+        ] {
+            let found = read(yaml).unwrap_or_else(|finding| panic!("{yaml:?}: {}", finding.message));
+            assert!(found.0.equals(&expected), "{yaml:?}: {:?}", found.0);
+        }
+    }
+
+    /// What stands behind the last `=` would be another formula than the student's answer.
+    #[test]
+    fn what_is_set_beside_a_formula_is_never_the_answer() {
+        for yaml in [
+            "K*s/(s^2 + 3s + 5), K = 2",
+            "-m*l*s/(q*s^3 + b), q = (M + m)*(I + m*l^2) - (m*l)^2",
+            "|\n    m*l*s/(q*s^3 + b)\n    q = (M + m)*(I + m*l^2) = 0.0168\n",
+            "num = 2s; den = s^2 + 3s + 5",
+            "m*g/(s + b), g = 10",
+            "1\n  ---\n  s\n  ---\n  2",
+        ] {
+            let finding = read(yaml).expect_err(yaml);
+            assert_eq!(finding.code, CODE, "{yaml:?}: {}", finding.message);
+        }
     }
 }

@@ -3,6 +3,7 @@
 mod answer;
 mod attachments;
 mod beside;
+mod beyond_formula;
 mod comma_to_point;
 mod decimal;
 mod decimal_commas;

@@ -589,7 +589,7 @@ fn word<T>(
             let message = format!("{} names more than one, and one is asked for.", quote(text));
             (message, format!("Give one: {}.", ticked(&named, " or ")))
         } else {
-            let help = match nearest(text.trim(), words.iter().copied()) {
+            let help = match nearest_words(text.trim(), words) {
                 Some(near) => format!("Did you mean `{near}`? {one_word}"),
                 None => one_word,
             };
@@ -597,6 +597,15 @@ fn word<T>(
         };
         Box::new(Finding::error(code, message).with_help(help).at(node.span))
     })
+}
+
+/// The answer that differs from `text` by slips alone, word by word: `not unstable` is not meant for `unstable`.
+fn nearest_words<'w>(text: &str, answers: &[&'w str]) -> Option<&'w str> {
+    let alike = |answer: &str| {
+        text.split_whitespace().count() == answer.split_whitespace().count()
+            && text.split_whitespace().zip(answer.split_whitespace()).all(|(a, b)| nearest(a, [b]).is_some())
+    };
+    nearest(text, answers.iter().copied().filter(|answer| alike(answer)))
 }
 
 fn prose(node: &Node) -> Result<String, Box<Finding>> {
@@ -649,4 +658,23 @@ fn is_blank_text(text: &str) -> bool {
 /// A key as it is compared: small letters, `_` for spaces and hyphens.
 fn plain_key(key: &str) -> String {
     key.trim().to_lowercase().replace([' ', '-'], "_")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest_words;
+
+    #[test]
+    fn only_slips_are_taken_for_an_answer() {
+        let answers = ["stable", "unstable", "exponential decay", "dead zone"];
+        for (text, expected) in [
+            ("stabel", Some("stable")),
+            ("expnential decay", Some("exponential decay")),
+            ("daed zone", Some("dead zone")),
+            ("not unstable", None),
+            ("exponential rise", None),
+        ] {
+            assert_eq!(nearest_words(text, &answers), expected, "{text}");
+        }
+    }
 }
