@@ -1,5 +1,4 @@
-use crate::grading::{Evidence, ItemScore, QuestionScore, Scorecard, Tally, Verdict};
-use crate::lab::{LabDefinition, Points};
+use crate::grading::{ItemScore, Scorecard, Verdict};
 use crate::source::{Finding, Severity, SourceText};
 use crate::submission::{Student, Submission};
 use std::collections::BTreeMap;
@@ -46,41 +45,5 @@ pub fn our_failure() -> Finding {
             .to_owned(),
         help: None,
         span: None,
-    }
-}
-
-/// Every criterion left to a person.
-pub fn unmarked(lab: &LabDefinition) -> Scorecard {
-    let questions: Vec<QuestionScore> = lab
-        .questions
-        .iter()
-        .map(|question| QuestionScore {
-            id: question.id.clone(),
-            tally: Tally { possible: question.points, ..Tally::default() },
-            items: question
-                .criteria
-                .iter()
-                .map(|criterion| ItemScore {
-                    id: criterion.id.clone(),
-                    title: criterion.title.clone(),
-                    earned: Points::ZERO,
-                    possible: criterion.points,
-                    verdict: Verdict::Unmarked,
-                    code: "polemark.failed",
-                    evidence: Evidence { reason: our_failure().message, ..Evidence::default() },
-                    diagnosis: None,
-                    provisional: true,
-                    override_reason: None,
-                    position: None,
-                })
-                .collect(),
-        })
-        .collect();
-    Scorecard {
-        total: Tally { possible: questions.iter().map(|q| q.tally.possible).sum(), ..Tally::default() },
-        questions,
-        observed: lab.observed.iter().map(|row| (row.id.clone(), None)).collect(),
-        cover: lab.cover.rows.iter().map(|row| (row.id.clone(), row.points, None)).collect(),
-        cover_total: None,
     }
 }

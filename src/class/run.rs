@@ -1,11 +1,11 @@
 use super::gradebook::Gradebook;
 use super::intake::{AnswerFile, UniqueNames};
-use super::marked::{Marked, our_failure, unmarked, unreadable_submission};
+use super::marked::{Marked, our_failure, unreadable_submission};
 use super::outcome::Outcome;
 use super::results::results_line;
 use super::statistics::Statistics;
 use super::students_seen::StudentsSeen;
-use crate::grading::{Catalogue, HandMarksFile, grade};
+use crate::grading::{Catalogue, HandMarksFile, grade, leave_to_a_person};
 use crate::lab::LabDefinition;
 use crate::reference::Reference;
 use crate::report::ReportKit;
@@ -204,9 +204,12 @@ fn mark_and_write(
     let scorecard = match catch_unwind(marking) {
         Ok(card) if !failed => card,
         _ => {
+            // A reading that failed has said so already.
+            if !failed {
+                submission.findings.push(our_failure());
+            }
             failed = true;
-            submission.findings.push(our_failure());
-            unmarked(job.lab)
+            leave_to_a_person(job.lab, &submission, marks, &our_failure().message)
         }
     };
     let page = match catch_unwind(AssertUnwindSafe(|| job.kit.student_page(&submission, &scorecard))) {

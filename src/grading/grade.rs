@@ -22,11 +22,32 @@ pub fn grade(
     hand: Option<&HandMarks>,
 ) -> Scorecard {
     let grader = Grader { reference, catalogue, submission };
+    scorecard(lab, submission, hand, |question| grader.question(question))
+}
+
+/// Every criterion left to a person, for `reason`; what `hand` already gives counts.
+pub fn leave_to_a_person(
+    lab: &LabDefinition,
+    submission: &Submission,
+    hand: Option<&HandMarks>,
+    reason: &str,
+) -> Scorecard {
+    let unmarked = |_: &Criterion| Mark::unmarked(String::new(), String::new(), reason);
+    scorecard(lab, submission, hand, |question| question.criteria.iter().map(unmarked).collect())
+}
+
+/// Adds up the marks of each question's criteria, a person's marks in place of ours.
+fn scorecard(
+    lab: &LabDefinition,
+    submission: &Submission,
+    hand: Option<&HandMarks>,
+    marks: impl Fn(&Question) -> Vec<Mark>,
+) -> Scorecard {
     let questions: Vec<QuestionScore> = lab
         .questions
         .iter()
         .map(|question| {
-            let marks = grader.question(question);
+            let marks = marks(question);
             let items: Vec<ItemScore> = question
                 .criteria
                 .iter()
@@ -359,6 +380,29 @@ mod tests {
                 item.evidence.reason
             );
         }
+    }
+
+    /// When polemark fails on a submission, what a person gave must not be lost with it.
+    #[test]
+    fn what_is_left_to_a_person_keeps_the_marks_they_gave() {
+        let given = Override { points: Points(100), reason: "marked on paper".to_owned() };
+        let hand = HandMarks {
+            cover: [("viva".to_owned(), Points(3000))].into(),
+            items: [("speaker.nonlinearity.class".to_owned(), given)].into(),
+            ..HandMarks::default()
+        };
+        let card = leave_to_a_person(&lab().0, &submission(""), Some(&hand), "Our fault.");
+        assert_eq!(card.total.earned, Points(100));
+        assert_eq!(
+            (
+                item(&card, "speaker.nonlinearity.class").verdict,
+                item(&card, "battery.nonlinearity.class").verdict
+            ),
+            (Verdict::Right, Verdict::Unmarked)
+        );
+        assert_eq!(item(&card, "battery.nonlinearity.class").evidence.reason, "Our fault.");
+        assert!(card.cover.iter().any(|(id, _, points)| id == "viva" && *points == Some(Points(3000))));
+        assert_eq!(card.cover_total, None);
     }
 
     #[test]

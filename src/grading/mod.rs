@@ -27,7 +27,7 @@ mod value;
 
 pub use catalogue::Catalogue;
 pub use diagnosis::{Diagnosis, Explanation};
-pub use grade::grade;
+pub use grade::{grade, leave_to_a_person};
 pub use hand_marks::{HandMarks, HandMarksFile, Override};
 pub use scorecard::*;
 
