@@ -61,6 +61,7 @@ pub(super) fn judge(
         found: found_in_words(&phrases, prose),
         reason,
         phrases: phrases.clone(),
+        ..Evidence::default()
     };
     if !against.is_empty() {
         let reason = format!(

@@ -5,6 +5,7 @@ use crate::algebra::significant;
 use crate::lab::SystemRef;
 use crate::lti::TransferFunction;
 use crate::model::{Mistake, MistakeKind};
+use crate::source::Span;
 use std::cmp::Ordering;
 
 /// What may have gone wrong on the way to a wrong transfer function. It gives no marks and takes none.
@@ -24,6 +25,19 @@ pub struct Explanation {
     pub words: String,
     /// From what is right to what was written, each by itself: `g = 9.8`, `equation 1: b*x' -> 0`, `0.4116 -> 0.4166`.
     pub changes: Vec<String>,
+    /// Where in the lab's equations it happened; empty when it happened elsewhere.
+    pub places: Vec<EquationPlace>,
+}
+
+/// A part of an equation of motion.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct EquationPlace {
+    /// The model's id.
+    pub model: String,
+    /// Which of its equations, from 0.
+    pub equation: usize,
+    /// Bytes of the equation as printed.
+    pub span: Span,
 }
 
 /// More explanations than these are no explanation.
@@ -138,7 +152,7 @@ impl System {
             [] => capitalized(&clauses),
             with => format!("With {}, {clauses}", with.join(", ")),
         };
-        Explanation { code: codes.join("+"), words: format!("{words}."), changes }
+        Explanation { code: codes.join("+"), words: format!("{words}."), changes, places: Vec::new() }
     }
 }
 

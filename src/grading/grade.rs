@@ -2,8 +2,8 @@ use super::accepted::{accepted, operating_point, transfer_function_of};
 use super::mark::{Mark, beginning};
 use super::plot::{Demands, Target};
 use super::{
-    Catalogue, HandMarks, ItemScore, QuestionScore, Scorecard, Tally, Verdict, concepts, cover, nonlinearity,
-    plot, poles, shape, stability, transfer_function, value,
+    Catalogue, HandMarks, ItemScore, Ledger, QuestionScore, Scorecard, Tally, Verdict, concepts, cover,
+    nonlinearity, plot, poles, shape, stability, transfer_function, value,
 };
 use crate::lab::{Check, Criterion, Curve, LabDefinition, Question, SystemRef};
 use crate::lti::InputKind;
@@ -64,7 +64,14 @@ fn scorecard(
     let observed = cover::observed(&lab.observed, hand);
     let parts = cover::Parts::new(total, unmarked, &lab.observed, &observed);
     let boxes = cover::boxes(&lab.cover, &parts, hand);
-    Scorecard { questions, total, observed, cover_total: cover::total(&boxes), cover: boxes }
+    Scorecard {
+        questions,
+        total,
+        observed,
+        cover_total: cover::total(&boxes),
+        cover: boxes,
+        ledger: Ledger::default(),
+    }
 }
 
 fn item_score(
@@ -89,6 +96,8 @@ fn item_score(
         code: mark.code,
         evidence: mark.evidence,
         diagnosis: mark.diagnosis,
+        follow_through: mark.follow_through,
+        alike: mark.alike,
         provisional: mark.provisional,
         override_reason: given.map(|given| given.reason.clone()),
         position: position(criterion, submission),
@@ -200,7 +209,7 @@ impl<'a> Grader<'a> {
             Check::Structure { .. } | Check::Numerator { .. } | Check::Denominator { .. } => {
                 self.without_value(criterion, String::new())
             }
-            Check::Poles { of, tolerance } => {
+            Check::Poles { of, tolerance, .. } => {
                 let accepted = accepted(self.reference, of, |one| one.poles.as_slice());
                 match value {
                     Some(AnswerValue::Poles(typed)) => {
@@ -245,7 +254,7 @@ impl<'a> Grader<'a> {
                 Some(AnswerValue::Nonlinearity(typed)) => nonlinearity::judge(points, *expected, *typed),
                 _ => self.without_value(criterion, nonlinearity::expected(*expected)),
             },
-            Check::Concepts { concepts: wanted, needed, contradictions } => match value {
+            Check::Concepts { concepts: wanted, needed, contradictions, .. } => match value {
                 Some(AnswerValue::Prose(prose)) => {
                     concepts::judge(points, wanted, *needed, contradictions, prose)
                 }

@@ -1,4 +1,4 @@
-use super::{Diagnosis, Evidence, Verdict};
+use super::{Diagnosis, Evidence, FollowThrough, Verdict};
 use crate::algebra::Rational;
 use crate::lab::Points;
 use crate::submission::{Answer, Unreadable};
@@ -12,46 +12,40 @@ pub(super) struct Mark {
     pub evidence: Evidence,
     pub provisional: bool,
     pub diagnosis: Option<Diagnosis>,
+    pub follow_through: Option<FollowThrough>,
+    pub alike: Option<String>,
 }
 
 impl Mark {
-    pub fn right(points: Points, evidence: Evidence) -> Self {
+    fn new(verdict: Verdict, code: &'static str, earned: Points, evidence: Evidence) -> Self {
         Self {
-            verdict: Verdict::Right,
-            code: "right",
-            earned: points,
+            verdict,
+            code,
+            earned,
             evidence,
             provisional: false,
             diagnosis: None,
+            follow_through: None,
+            alike: None,
         }
+    }
+
+    pub fn right(points: Points, evidence: Evidence) -> Self {
+        Self::new(Verdict::Right, "right", points, evidence)
     }
 
     pub fn partly(code: &'static str, earned: Points, evidence: Evidence) -> Self {
-        Self { verdict: Verdict::Partly, code, earned, evidence, provisional: false, diagnosis: None }
+        Self::new(Verdict::Partly, code, earned, evidence)
     }
 
     pub fn wrong(code: &'static str, evidence: Evidence) -> Self {
-        Self {
-            verdict: Verdict::Wrong,
-            code,
-            earned: Points::ZERO,
-            evidence,
-            provisional: false,
-            diagnosis: None,
-        }
+        Self::new(Verdict::Wrong, code, Points::ZERO, evidence)
     }
 
     pub fn blank(expected: String) -> Self {
         let evidence =
             Evidence { expected, reason: "Nothing was written here.".into(), ..Evidence::default() };
-        Self {
-            verdict: Verdict::Blank,
-            code: "blank",
-            earned: Points::ZERO,
-            evidence,
-            provisional: false,
-            diagnosis: None,
-        }
+        Self::new(Verdict::Blank, "blank", Points::ZERO, evidence)
     }
 
     pub fn unreadable(expected: String, answer: &Answer, why: &Unreadable) -> Self {
@@ -60,27 +54,13 @@ impl Mark {
             reason = format!("{reason} {help}");
         }
         let evidence = Evidence { expected, found: beginning(&answer.text), reason, ..Evidence::default() };
-        Self {
-            verdict: Verdict::Unreadable,
-            code: "unreadable",
-            earned: Points::ZERO,
-            evidence,
-            provisional: false,
-            diagnosis: None,
-        }
+        Self::new(Verdict::Unreadable, "unreadable", Points::ZERO, evidence)
     }
 
     /// polemark has nothing to judge with, or does not know how: put before a person.
     pub fn unmarked(expected: String, found: String, reason: impl Into<String>) -> Self {
         let evidence = Evidence { expected, found, reason: reason.into(), ..Evidence::default() };
-        Self {
-            verdict: Verdict::Unmarked,
-            code: "unmarked",
-            earned: Points::ZERO,
-            evidence,
-            provisional: true,
-            diagnosis: None,
-        }
+        Self { provisional: true, ..Self::new(Verdict::Unmarked, "unmarked", Points::ZERO, evidence) }
     }
 }
 

@@ -9,8 +9,10 @@ mod concepts;
 mod cover;
 mod diagnosis;
 mod digits;
+mod follow_through;
 mod grade;
 mod hand_marks;
+mod ledger;
 mod likeness;
 mod mark;
 mod nonlinearity;
@@ -26,9 +28,11 @@ mod transfer_function;
 mod value;
 
 pub use catalogue::Catalogue;
-pub use diagnosis::{Diagnosis, Explanation};
+pub use diagnosis::{Diagnosis, EquationPlace, Explanation};
+pub use follow_through::{FollowThrough, Guard};
 pub use grade::{grade, leave_to_a_person};
 pub use hand_marks::{HandMarks, HandMarksFile, Override};
+pub use ledger::{Cause, Ledger, Loss, Spared};
 pub use scorecard::*;
 
 #[cfg(test)]

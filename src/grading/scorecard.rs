@@ -1,4 +1,4 @@
-use super::Diagnosis;
+use super::{Diagnosis, FollowThrough, Ledger};
 use crate::lab::Points;
 use crate::source::{Position, Span};
 use std::ops::Add;
@@ -42,6 +42,8 @@ pub struct Scorecard {
     pub cover: Vec<(String, Points, Option<Points>)>,
     /// Sum of the cover sheet, `None` while a box is empty.
     pub cover_total: Option<Points>,
+    /// Where each point of `total` was lost, and what was not charged twice.
+    pub ledger: Ledger,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -94,6 +96,10 @@ pub struct ItemScore {
     pub evidence: Evidence,
     /// Of a wrong transfer function, at the first criterion that is not right: what may have gone wrong.
     pub diagnosis: Option<Diagnosis>,
+    /// Of an answer that is not right by the reference and rests on an earlier one: how it stands to that.
+    pub follow_through: Option<FollowThrough>,
+    /// The group of like answers that one decision of a person can serve; `None` when nobody need decide.
+    pub alike: Option<String>,
     /// To be confirmed by a person.
     pub provisional: bool,
     /// A person changed the mark: their reason.
@@ -113,6 +119,21 @@ pub struct Evidence {
     pub reason: String,
     /// Words of the prose that count, for or against.
     pub phrases: Vec<PhraseMatch>,
+    /// Words of the prose that do not go with the numbers: shown to the marker, no points by themselves.
+    pub conflicts: Vec<Conflict>,
+}
+
+/// Prose that says something else than the student's own fields or the reference.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Conflict {
+    /// Bytes of the prose text (not of the file).
+    pub span: Span,
+    /// What is claimed, in words: `it is stable`.
+    pub claim: String,
+    /// What says otherwise, in a sentence: `Your pole 5.57 lies in the right half-plane.`
+    pub against: String,
+    /// It is the student's own answer that says otherwise, not the reference.
+    pub own: bool,
 }
 
 /// Words found in prose.

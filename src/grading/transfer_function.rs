@@ -415,6 +415,7 @@ mod tests {
             title: String::new(),
             points: Points(points),
             field: "g".into(),
+            follow_through: Rational::ONE,
             check,
             span: Span::default(),
         };

@@ -22,6 +22,7 @@ pub struct LabDefinition {
     /// Rows a person marks while watching the lab session.
     pub observed: Vec<ObservedRow>,
     pub cover: Cover,
+    pub follow_through: FollowThroughRule,
     /// Values stated by hand or taken from an independent program; `verify` holds the computed ones against them.
     pub expectations: Vec<Expectation>,
     /// The model answer, assembled from the questions' `model_answer`, read like any submission.
@@ -29,6 +30,15 @@ pub struct LabDefinition {
     /// What an answer file may hold; no right answers in it.
     pub sheet: AnswerSheet,
     pub text: SourceText,
+}
+
+/// What part of the points is earned by what is wrong by the reference, but follows rightly from an earlier answer (0..=1).
+#[derive(Clone, Debug, PartialEq)]
+pub struct FollowThroughRule {
+    /// Poles, responses, words and prose that are right for the student's own transfer function or poles.
+    pub credit: Rational,
+    /// A later transfer function with the same mistake as an earlier one.
+    pub same_mistake: Rational,
 }
 
 /// A learning outcome: `a`, and what it says.
@@ -119,6 +129,13 @@ pub struct QuestionField {
     pub required: bool,
 }
 
+/// A response of a system.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Described {
+    pub of: SystemRef,
+    pub response: InputKind,
+}
+
 /// What earns points.
 #[derive(Clone, Debug)]
 pub struct Criterion {
@@ -129,6 +146,8 @@ pub struct Criterion {
     pub points: Points,
     /// The answer field that is judged.
     pub field: String,
+    /// What part of the points follow-through earns here (0..=1): the lab's, unless the criterion has its own.
+    pub follow_through: Rational,
     pub check: Check,
     pub span: Span,
 }
@@ -161,6 +180,8 @@ pub enum Check {
     Poles {
         of: SystemRef,
         tolerance: Tolerance,
+        /// Relative tolerance of a coefficient: poles of a denominator within it are right as well.
+        coefficients: Rational,
     },
     /// The word, against the transfer function's stability.
     Stability {
@@ -189,6 +210,8 @@ pub enum Check {
         concepts: Vec<Concept>,
         needed: usize,
         contradictions: Vec<Concept>,
+        /// The response the prose is about, when it is about one: its claims are held against that response.
+        describes: Option<Described>,
     },
     /// The class of a nonlinearity.
     Nonlinearity {

@@ -71,6 +71,9 @@ pub(super) struct LabFile {
     /// How near is right.
     #[serde(default)]
     pub tolerances: TolerancesFile,
+    /// What follows rightly from a student's own earlier answer.
+    #[serde(default)]
+    pub follow_through: FollowThroughFile,
     /// What all questions add up to, points.
     pub total: Text,
     /// The questions by id, in the order of the handout. The id is the answer's key and may have dots.
@@ -255,6 +258,16 @@ pub(super) enum BlockFile {
     },
 }
 
+/// What part of the points an answer earns that is wrong by the reference but right for an earlier answer, 0 to 1.
+#[derive(Debug, Default, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FollowThroughFile {
+    /// Of poles, responses, words and prose that are right for the student's own transfer function. Default 1.
+    pub credit: Option<Text>,
+    /// Of a later transfer function with the same mistake in it as an earlier one. Default 1.
+    pub same_mistake: Option<Text>,
+}
+
 /// How near is right, by kind of answer. A criterion may have a `tolerance` of its own.
 #[derive(Debug, Default, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -348,6 +361,8 @@ pub(super) struct CriterionFile {
     pub tolerance: Option<Spanned<ToleranceFile>>,
     /// For `denominator`: the part of the points that a single mistyped coefficient leaves, 0 to 1. Default 0.
     pub one_slip: Option<Text>,
+    /// In place of the lab's `credit`, for what rests on an earlier answer: 0 to 1.
+    pub follow_through: Option<Text>,
     /// For `plot`: the field with the data. Default: none, only a figure can be handed in.
     pub data: Option<Text>,
     /// For `plot`: fewest data points that are compared. Default 10.
@@ -360,6 +375,9 @@ pub(super) struct CriterionFile {
     pub needed: Option<Text>,
     /// For `concepts`: what it must not say, by id.
     pub contradictions: Option<Entries<ConceptFile>>,
+    /// For `concepts`: `impulse` or `step` when the prose describes that response of the operating point; what it claims is
+    /// then held against the numbers. Default: it describes none.
+    pub describes: Option<Text>,
     /// For `nonlinearity`: `saturation`, `dead zone`, `backlash`, …
     pub expected: Option<Text>,
 }

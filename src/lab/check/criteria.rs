@@ -1,10 +1,10 @@
 use super::questions::{Fields, kind_name};
-use super::scalars::Tolerances;
+use super::scalars::Defaults;
 use super::{Checker, Names, span};
 use crate::algebra::Rational;
 use crate::lab::file::{ConceptFile, CriterionFile, Entries, QuestionFile, Text};
 use crate::lab::names::list;
-use crate::lab::{Check, Concept, Criterion, Curve, FeatureKind, SystemRef};
+use crate::lab::{Check, Concept, Criterion, Curve, Described, FeatureKind, SystemRef};
 use crate::lti::InputKind;
 use crate::source::Span;
 use crate::submission::{FieldKind, nonlinearity_word};
@@ -16,12 +16,20 @@ const CHECKS: &[CheckRow] = &[
     ("structure", FieldKind::TransferFunction, &["of"]),
     ("numerator", FieldKind::TransferFunction, &["of", "tolerance"]),
     ("denominator", FieldKind::TransferFunction, &["of", "tolerance", "one_slip"]),
-    ("poles", FieldKind::Poles, &["of", "tolerance"]),
-    ("stability", FieldKind::Stability, &["of"]),
-    ("feature", FieldKind::Value, &["of", "tolerance", "response", "feature"]),
-    ("shape", FieldKind::Shape, &["of", "response"]),
-    ("plot", FieldKind::Figure, &["of", "tolerance", "response", "data", "min_points", "span_s"]),
-    ("concepts", FieldKind::Prose, &["concepts", "needed", "contradictions"]),
+    ("poles", FieldKind::Poles, &["of", "tolerance", "follow_through"]),
+    ("stability", FieldKind::Stability, &["of", "follow_through"]),
+    ("feature", FieldKind::Value, &["of", "tolerance", "response", "feature", "follow_through"]),
+    ("shape", FieldKind::Shape, &["of", "response", "follow_through"]),
+    (
+        "plot",
+        FieldKind::Figure,
+        &["of", "tolerance", "response", "data", "min_points", "span_s", "follow_through"],
+    ),
+    (
+        "concepts",
+        FieldKind::Prose,
+        &["concepts", "needed", "contradictions", "follow_through", "of", "describes"],
+    ),
     ("nonlinearity", FieldKind::Nonlinearity, &["expected"]),
 ];
 
@@ -49,7 +57,7 @@ impl Checker<'_> {
         question: &QuestionFile,
         fields: &Fields<'_>,
         names: &Names<'_>,
-        tolerances: &Tolerances,
+        defaults: &Defaults,
     ) -> Option<Criterion> {
         self.path(name, "criterion id");
         let points = self.points(&file.points);
@@ -77,12 +85,17 @@ impl Checker<'_> {
             self.error("lab.criterion", span(&file.check), message, None);
             return None;
         }
-        let check = self.check(check_name, file, question, fields, names, tolerances)?;
+        let follow_through = match &file.follow_through {
+            Some(text) => self.fraction(text, "`follow_through`"),
+            None => Some(defaults.follow_through.credit.clone()),
+        };
+        let check = self.check(check_name, file, question, fields, names, defaults)?;
         Some(Criterion {
             id: format!("{}.{}", fields.question.value, name.value),
             title: file.title.trim().to_owned(),
             points: points?,
             field: path,
+            follow_through: follow_through?,
             check,
             span: span(name),
         })
@@ -120,9 +133,9 @@ impl Checker<'_> {
         question: &QuestionFile,
         fields: &Fields<'_>,
         names: &Names<'_>,
-        tolerances: &Tolerances,
+        defaults: &Defaults,
     ) -> Option<Check> {
-        let coefficients = &tolerances.coefficients;
+        let coefficients = &defaults.coefficients;
         match check {
             "structure" => Some(Check::Structure { of: self.system(file, question, names)? }),
             "numerator" => {
@@ -139,12 +152,13 @@ impl Checker<'_> {
                 Some(Check::Denominator { of: of?, tolerance, one_slip: one_slip? })
             }
             "poles" => {
-                let tolerance = self.tolerance_or(file.tolerance.as_ref(), tolerances.values.clone());
-                Some(Check::Poles { of: self.system(file, question, names)?, tolerance })
+                let tolerance = self.tolerance_or(file.tolerance.as_ref(), defaults.values.clone());
+                let coefficients = coefficients.relative.clone();
+                Some(Check::Poles { of: self.system(file, question, names)?, tolerance, coefficients })
             }
             "stability" => Some(Check::Stability { of: self.system(file, question, names)? }),
             "feature" => {
-                let tolerance = self.tolerance_or(file.tolerance.as_ref(), tolerances.values.clone());
+                let tolerance = self.tolerance_or(file.tolerance.as_ref(), defaults.values.clone());
                 let response = self.response(file);
                 let feature = self.required(file.feature.as_ref(), file, "feature").and_then(|text| {
                     let known: Vec<&str> = FEATURES.iter().map(|(name, _)| *name).collect();
@@ -158,8 +172,8 @@ impl Checker<'_> {
                 let of = self.system(file, question, names);
                 Some(Check::Shape { of: of?, response: response? })
             }
-            "plot" => self.plot(file, question, fields, names, tolerances),
-            "concepts" => self.concepts(file),
+            "plot" => self.plot(file, question, fields, names, defaults),
+            "concepts" => self.concepts(file, question, names),
             _ => {
                 let text = self.required(file.expected.as_ref(), file, "expected")?;
                 let expected = nonlinearity_word(&text.value);
@@ -179,9 +193,9 @@ impl Checker<'_> {
         question: &QuestionFile,
         fields: &Fields<'_>,
         names: &Names<'_>,
-        tolerances: &Tolerances,
+        defaults: &Defaults,
     ) -> Option<Check> {
-        let tolerance = self.tolerance_or(file.tolerance.as_ref(), tolerances.plots.clone());
+        let tolerance = self.tolerance_or(file.tolerance.as_ref(), defaults.plots.clone());
         let response = self.response(file);
         let curve = match self.subject(file, question, names) {
             Some(Subject::System(of)) => response.map(|response| Curve::Response { of, response }),
@@ -220,7 +234,12 @@ impl Checker<'_> {
         Some(path.clone())
     }
 
-    fn concepts(&mut self, file: &CriterionFile) -> Option<Check> {
+    fn concepts(
+        &mut self,
+        file: &CriterionFile,
+        question: &QuestionFile,
+        names: &Names<'_>,
+    ) -> Option<Check> {
         let stated = file.concepts.as_ref();
         if stated.is_none() {
             let message = "the check `concepts` needs the key `concepts`";
@@ -239,7 +258,20 @@ impl Checker<'_> {
             Some(entries) => self.concept_list(entries),
             None => Some(Vec::new()),
         };
-        Some(Check::Concepts { concepts: concepts?, needed: needed?, contradictions: contradictions? })
+        let describes = match &file.describes {
+            None => None,
+            Some(text) => {
+                let response = self.input_kind(text);
+                let of = self.system(file, question, names);
+                Some(Described { of: of?, response: response? })
+            }
+        };
+        Some(Check::Concepts {
+            concepts: concepts?,
+            needed: needed?,
+            contradictions: contradictions?,
+            describes,
+        })
     }
 
     fn concept_list(&mut self, entries: &Entries<ConceptFile>) -> Option<Vec<Concept>> {
@@ -279,7 +311,13 @@ impl Checker<'_> {
     }
 
     fn response(&mut self, file: &CriterionFile) -> Option<InputKind> {
-        let Some(text) = &file.response else { return Some(InputKind::Impulse) };
+        match &file.response {
+            Some(text) => self.input_kind(text),
+            None => Some(InputKind::Impulse),
+        }
+    }
+
+    fn input_kind(&mut self, text: &Text) -> Option<InputKind> {
         self.one_of(text, "response", &["impulse", "step"]).map(|i| [InputKind::Impulse, InputKind::Step][i])
     }
 
@@ -372,12 +410,14 @@ fn given(file: &CriterionFile) -> Vec<(&'static str, Span)> {
         ("feature", text(&file.feature)),
         ("tolerance", file.tolerance.as_ref().map(span)),
         ("one_slip", text(&file.one_slip)),
+        ("follow_through", text(&file.follow_through)),
         ("data", text(&file.data)),
         ("min_points", text(&file.min_points)),
         ("span_s", text(&file.span_s)),
         ("concepts", file.concepts.as_ref().map(span)),
         ("needed", text(&file.needed)),
         ("contradictions", file.contradictions.as_ref().map(|_| check)),
+        ("describes", text(&file.describes)),
         ("expected", text(&file.expected)),
     ]
     .into_iter()

@@ -94,8 +94,8 @@ impl Checker<'_> {
         let parameters = self.parameters(file);
         let models = self.models(file, parameters.as_deref());
         let simulations = self.simulations(file, &names);
-        let tolerances = self.tolerances(&file.tolerances);
-        let questions = self.questions(file, &names, &tolerances);
+        let defaults = self.defaults(&file.tolerances, &file.follow_through);
+        let questions = self.questions(file, &names, &defaults);
         let observed = self.observed(&file.observed, &names);
         let cover = self.cover(&file.cover, !file.observed.rows.0.is_empty());
         let expectations = self.expectations(&file.expect, &names);
@@ -114,6 +114,7 @@ impl Checker<'_> {
             questions,
             observed: observed?,
             cover: cover?,
+            follow_through: defaults.follow_through,
             expectations: expectations?,
             model_answer,
             sheet,

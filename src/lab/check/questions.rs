@@ -1,4 +1,4 @@
-use super::scalars::Tolerances;
+use super::scalars::Defaults;
 use super::{Checker, Names, span};
 use crate::lab::file::{FieldFile, LabFile, QuestionFile, Text};
 use crate::lab::names::list;
@@ -36,10 +36,10 @@ impl Checker<'_> {
         &mut self,
         file: &LabFile,
         names: &Names<'_>,
-        tolerances: &Tolerances,
+        defaults: &Defaults,
     ) -> Option<Vec<Question>> {
         let questions: Vec<_> =
-            file.questions.0.iter().map(|(id, q)| self.question(id, q, names, tolerances)).collect();
+            file.questions.0.iter().map(|(id, q)| self.question(id, q, names, defaults)).collect();
         let questions = questions.into_iter().collect::<Option<Vec<_>>>();
         let total = self.points(&file.total);
         let questions = questions?;
@@ -58,7 +58,7 @@ impl Checker<'_> {
         id: &Text,
         file: &QuestionFile,
         names: &Names<'_>,
-        tolerances: &Tolerances,
+        defaults: &Defaults,
     ) -> Option<Question> {
         self.path(id, "question id");
         let points = self.points(&file.points);
@@ -76,7 +76,7 @@ impl Checker<'_> {
             .value
             .0
             .iter()
-            .map(|(name, c)| self.criterion(name, c, file, &entries, names, tolerances))
+            .map(|(name, c)| self.criterion(name, c, file, &entries, names, defaults))
             .collect();
         let criteria = criteria.into_iter().collect::<Option<Vec<_>>>();
         let (points, criteria) = (points?, criteria?);

@@ -1,9 +1,9 @@
 use super::{Checker, span};
 use crate::algebra::{Rational, parse_decimal, to_f64};
 use crate::lab::Points;
-use crate::lab::Tolerance;
-use crate::lab::file::{Text, ToleranceFile, TolerancesFile};
+use crate::lab::file::{FollowThroughFile, Text, ToleranceFile, TolerancesFile};
 use crate::lab::names::suggestion;
+use crate::lab::{FollowThroughRule, Tolerance};
 use serde_yaml::Spanned;
 
 /// Words a formula has a meaning for already; `s` is the variable of transfer functions.
@@ -12,11 +12,12 @@ const RESERVED: &[&str] = &[
     "abs", "sign",
 ];
 
-/// What the lab says about nearness where a criterion does not.
-pub(super) struct Tolerances {
+/// What the lab says where a criterion does not.
+pub(super) struct Defaults {
     pub coefficients: Tolerance,
     pub values: Tolerance,
     pub plots: Tolerance,
+    pub follow_through: FollowThroughRule,
 }
 
 impl Checker<'_> {
@@ -134,11 +135,20 @@ impl Checker<'_> {
         position
     }
 
-    pub(super) fn tolerances(&mut self, file: &TolerancesFile) -> Tolerances {
-        Tolerances {
-            coefficients: self.tolerance_or(file.coefficients.as_ref(), tolerance(0, 5, None)),
-            values: self.tolerance_or(file.values.as_ref(), tolerance(1, 10, Some(2))),
-            plots: self.tolerance_or(file.plots.as_ref(), tolerance(0, 20, None)),
+    pub(super) fn defaults(&mut self, near: &TolerancesFile, follow: &FollowThroughFile) -> Defaults {
+        let mut part = |text: &Option<Text>, what: &str| match text {
+            Some(text) => self.fraction(text, what).unwrap_or(Rational::ONE),
+            None => Rational::ONE,
+        };
+        let follow_through = FollowThroughRule {
+            credit: part(&follow.credit, "`credit`"),
+            same_mistake: part(&follow.same_mistake, "`same_mistake`"),
+        };
+        Defaults {
+            coefficients: self.tolerance_or(near.coefficients.as_ref(), tolerance(0, 5, None)),
+            values: self.tolerance_or(near.values.as_ref(), tolerance(1, 10, Some(2))),
+            plots: self.tolerance_or(near.plots.as_ref(), tolerance(0, 20, None)),
+            follow_through,
         }
     }
 
