@@ -209,16 +209,17 @@ impl<'a> Grader<'a> {
             Check::Structure { .. } | Check::Numerator { .. } | Check::Denominator { .. } => {
                 self.without_value(criterion, String::new())
             }
-            Check::Poles { of, tolerance, .. } => {
-                let accepted = accepted(self.reference, of, |one| one.poles.as_slice());
+            Check::Poles { of, tolerance, coefficients } => {
+                let accepted = poles::accepted_poles(self.reference, of);
+                let nearness = poles::Nearness { parts: tolerance, coefficients };
                 match value {
                     Some(AnswerValue::Poles(typed)) => {
                         let internal = operating_point(self.reference, of)
                             .and_then(|point| point.accepted.first())
                             .map_or(&[][..], |one| one.internal_poles.as_slice());
-                        poles::judge(points, &accepted, internal, tolerance, typed)
+                        poles::judge(points, &accepted, internal, &nearness, typed)
                     }
-                    _ => self.without_value(criterion, poles::expected(&accepted, tolerance)),
+                    _ => self.without_value(criterion, poles::expected(&accepted, &nearness)),
                 }
             }
             Check::Stability { of } => {

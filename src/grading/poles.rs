@@ -1,20 +1,52 @@
 use super::Evidence;
-use super::accepted::{Accepted, also};
+use super::accepted::{Accepted, accepted, also};
 use super::closeness::{closeness, in_words};
 use super::mark::{Mark, half, share};
-use crate::algebra::{Rational, significant};
-use crate::lab::{Points, Tolerance};
+use crate::algebra::{Polynomial, Rational, significant};
+use crate::lab::{Points, SystemRef, Tolerance};
 use crate::lti::Pole;
+use crate::reference::Reference;
 use crate::submission::{Decimal, TypedComplex};
 
 /// More poles than this are not matched one by one.
 const MOST: usize = 60;
 
+/// One accepted set of poles.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ExpectedPoles<'a> {
+    pub poles: Accepted<'a, [Pole]>,
+    /// The polynomial whose roots they are, common factors cancelled; any scale.
+    #[allow(dead_code, reason = "read by the backward error, which comes next")]
+    pub denominator: &'a Polynomial,
+}
+
+/// How near a set of poles has to be.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Nearness<'a> {
+    /// Of each real and imaginary part.
+    pub parts: &'a Tolerance,
+    /// Relative, of each coefficient of the denominator.
+    #[allow(dead_code, reason = "read by the backward error, which comes next")]
+    pub coefficients: &'a Rational,
+}
+
+/// The poles of every accepted set of parameter values, the lab's own first; none when the reference does not know `of`.
+pub(super) fn accepted_poles<'a>(reference: &'a Reference, of: &SystemRef) -> Vec<ExpectedPoles<'a>> {
+    accepted(reference, of, |one| one)
+        .into_iter()
+        .map(|one| ExpectedPoles {
+            poles: Accepted { differs: one.differs, what: one.what.poles.as_slice() },
+            denominator: &one.what.linearization.transfer_function.den,
+        })
+        .collect()
+}
+
 /// What is expected of a set of poles, in words.
-pub(super) fn expected(accepted: &[Accepted<'_, [Pole]>], tolerance: &Tolerance) -> String {
-    let Some(main) = accepted.first() else { return String::new() };
+pub(super) fn expected(accepted: &[ExpectedPoles<'_>], nearness: &Nearness<'_>) -> String {
+    let sets: Vec<_> = accepted.iter().map(|one| one.poles).collect();
+    let Some(main) = sets.first() else { return String::new() };
     let list = if main.what.is_empty() { "No poles".to_owned() } else { list(main.what) };
-    format!("{list}; real and imaginary part each {}.{}", in_words(tolerance), also(accepted))
+    format!("{list}; real and imaginary part each {}.{}", in_words(nearness.parts), also(&sets))
 }
 
 /// The typed set against each accepted set, the best of them.
@@ -23,19 +55,19 @@ pub(super) fn expected(accepted: &[Accepted<'_, [Pole]>], tolerance: &Tolerance)
 /// the same sign; the largest matching decides. `cancelled` are values that the whole state has beyond the poles.
 pub(super) fn judge(
     points: Points,
-    accepted: &[Accepted<'_, [Pole]>],
+    accepted: &[ExpectedPoles<'_>],
     cancelled: &[Pole],
-    tolerance: &Tolerance,
+    nearness: &Nearness<'_>,
     typed: &[TypedComplex],
 ) -> Mark {
-    let expected = expected(accepted, tolerance);
+    let expected = expected(accepted, nearness);
     let found = if typed.is_empty() { "No poles".to_owned() } else { typed_list(typed) };
-    if accepted.is_empty() || accepted.iter().any(|one| count(one.what) > MOST) {
+    if accepted.is_empty() || accepted.iter().any(|one| count(one.poles.what) > MOST) {
         return Mark::unmarked(expected, found, "polemark cannot compare these poles; a person will.");
     }
     let mut best: Option<Outcome> = None;
     for one in accepted {
-        let outcome = compare(one.what, cancelled, tolerance, typed, &one.with());
+        let outcome = compare(one.poles.what, cancelled, nearness.parts, typed, &one.poles.with());
         let rank = |o: &Outcome| (o.code == "right", o.code == "poles.missing_conjugate", o.matched);
         if best.as_ref().is_none_or(|known| rank(&outcome) > rank(known)) {
             best = Some(outcome);
@@ -369,8 +401,15 @@ mod tests {
     }
 
     fn mark(want: &[Pole], cancelled: &[Pole], text: &str) -> Mark {
-        let accepted = [Accepted { differs: &[], what: want }];
-        judge(Points(50), &accepted, cancelled, &tolerance("0.001", "0.01", Some(2)), &answer(text))
+        marked(want, cancelled, &tolerance("0.001", "0.01", Some(2)), &answer(text))
+    }
+
+    fn marked(want: &[Pole], cancelled: &[Pole], parts: &Tolerance, typed: &[TypedComplex]) -> Mark {
+        let denominator = Polynomial::one();
+        let poles = Accepted { differs: &[], what: want };
+        let accepted = [ExpectedPoles { poles, denominator: &denominator }];
+        let nearness = Nearness { parts, coefficients: &Rational::ZERO };
+        judge(Points(50), &accepted, cancelled, &nearness, typed)
     }
 
     #[track_caller]
@@ -487,8 +526,7 @@ mod tests {
             let mut given = answer(&seed.iter().map(|(re, im)| format!("{re},{im} ")).collect::<String>());
             let turn = turn % given.len();
             given.rotate_left(turn);
-            let accepted = [Accepted { differs: &[], what: want.as_slice() }];
-            let mark = judge(Points(50), &accepted, &[], &tolerance("0.001", "0.01", None), &given);
+            let mark = marked(&want, &[], &tolerance("0.001", "0.01", None), &given);
             prop_assert_eq!(mark.code, "right");
         }
     }
