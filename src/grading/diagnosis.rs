@@ -25,6 +25,8 @@ pub struct Explanation {
     pub words: String,
     /// From what is right to what was written, each by itself: `g = 9.8`, `equation 1: b*x' -> 0`, `0.4116 -> 0.4166`.
     pub changes: Vec<String>,
+    /// The same without the parameter values taken: what went wrong.
+    pub mistakes: Vec<String>,
     /// Where in the lab's equations it happened; empty when it happened elsewhere.
     pub places: Vec<EquationPlace>,
 }
@@ -131,12 +133,12 @@ impl System {
 
     fn explanation(&self, one: &Candidate<'_>) -> Explanation {
         let with = self.choices.get(one.choice).map_or(&[][..], |(words, _)| words.as_slice());
-        let mut changes = with.to_vec();
+        let mut mistakes = Vec::new();
         let (mut codes, mut clauses) = (Vec::new(), Vec::new());
         if let Some(mistake) = one.mistake {
             codes.push(mistake.kind.code());
             clauses.push(mistake.words.clone());
-            changes.push(mistake.change.clone());
+            mistakes.push(mistake.change.clone());
         }
         if let Some(slip) = &one.slip {
             let (typed, meant) = (significant(slip.typed, 15), significant(slip.meant, 15));
@@ -145,14 +147,25 @@ impl System {
                 "slip.exchanged" => format!("`{typed}` was written for `{meant}`, two digits exchanged"),
                 _ => format!("`{typed}` was written for `{meant}`, one digit off"),
             });
-            changes.push(format!("{meant} -> {typed}"));
+            mistakes.push(format!("{meant} -> {typed}"));
         }
         let clauses = clauses.join(", and ");
         let words = match with {
             [] => capitalized(&clauses),
             with => format!("With {}, {clauses}", with.join(", ")),
         };
-        Explanation { code: codes.join("+"), words: format!("{words}."), changes, places: Vec::new() }
+        let places = one.mistake.iter().flat_map(|mistake| &mistake.places).map(|place| EquationPlace {
+            model: self.of.model.clone(),
+            equation: place.equation,
+            span: Span { start: place.start, end: place.end },
+        });
+        Explanation {
+            code: codes.join("+"),
+            words: format!("{words}."),
+            changes: with.iter().chain(&mistakes).cloned().collect(),
+            places: places.collect(),
+            mistakes,
+        }
     }
 }
 
@@ -271,6 +284,29 @@ mod tests {
             ("hanging", "0", "1 2 3 4", "", &[]),
             ("hanging", "1", "1 1", "", &[]),
         ]);
+    }
+
+    /// Where in the equations, as printed there; and what went wrong without the parameter values taken.
+    #[test]
+    fn the_place_in_the_equations_is_told() {
+        for (num, den, places, mistakes) in [
+            ("-0.06 0", "0.0132 0.0024 -0.4116 -0.0588", &["m*g*l*sin(theta)"][..], &[GRAVITY][..]),
+            ("-0.06 0", "0.0006 0.0006 0.41202 0.05886", &["m*l^2"], &["equation 2: m*l^2 -> 0"]),
+            ("0.06 0", "0.0132 0.0024 0.41202 0.05886", &[], &["G -> -G"]),
+        ] {
+            let found = CATALOGUE.diagnose(&at("hanging"), &function(num, den)).unwrap();
+            let first = &found.explanations[0];
+            let shown: Vec<&str> = first
+                .places
+                .iter()
+                .map(|place| {
+                    assert_eq!(place.model, "cart");
+                    &LAB.models[0].model.equations[place.equation].text[place.span.start..place.span.end]
+                })
+                .collect();
+            assert_eq!(shown, places, "{num}/({den})");
+            assert_eq!(first.mistakes, mistakes, "{num}/({den})");
+        }
     }
 
     #[test]

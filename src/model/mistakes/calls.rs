@@ -1,5 +1,5 @@
 use super::rewrite::negated;
-use super::{Derivation, Mistake, MistakeKind};
+use super::{Derivation, Mistake, MistakeKind, Place};
 use crate::algebra::{Expression, Function, NodeKind, significant};
 use crate::lti::TransferFunction;
 use crate::model::Exact;
@@ -32,6 +32,7 @@ pub(super) fn mistakes(of: &Derivation<'_>) -> Vec<(Mistake, TransferFunction)> 
                     "`{name}`{which} of equation {number} has the wrong sign at the operating point ({about})"
                 ),
                 change: format!("equation {number}: {name} -> -{name}{which}"),
+                places: vec![Place { equation: index, start: call.start, end: call.end }],
             };
             let result = of.with_node(index, (call.start, call.end), &negated);
             all.extend(result.map(|function| (mistake, function)));

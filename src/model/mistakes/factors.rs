@@ -1,4 +1,4 @@
-use super::{Derivation, Mistake, MistakeKind};
+use super::{Derivation, Mistake, MistakeKind, Place};
 use crate::algebra::{Expression, NodeKind, Rational};
 use crate::lti::TransferFunction;
 
@@ -13,13 +13,17 @@ pub(super) fn mistakes(of: &Derivation<'_>) -> Vec<(Mistake, TransferFunction)> 
         factors(&equation.right, None, &mut found);
         for (factor, product) in found {
             let place = (factor.node.start, factor.node.end);
+            let places = vec![Place { equation: index, start: place.0, end: place.1 }];
             let name = text(factor.node);
             let inside = match product {
                 Some(product) => format!("in `{}` of equation {number}", text(product)),
                 None => format!("in equation {number}"),
             };
             let mut add = |kind, words, change: String, result: Option<TransferFunction>| {
-                all.extend(result.map(|function| (Mistake { kind, words, change }, function)));
+                all.extend(
+                    result
+                        .map(|function| (Mistake { kind, words, change, places: places.clone() }, function)),
+                );
             };
             let change = |to: &str| match product {
                 Some(product) => format!("equation {number}: {name} -> {to} in {}", text(product)),

@@ -36,6 +36,16 @@ pub struct Mistake {
     pub words: String,
     /// What to change in the derivation to get it: `equation 1: b*x' -> 0`.
     pub change: String,
+    /// Where in the equations; none when it is made elsewhere.
+    pub places: Vec<Place>,
+}
+
+/// A part of an equation: which one, counted from 0, and bytes `start..end` of it as printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Place {
+    pub equation: usize,
+    pub start: usize,
+    pub end: usize,
 }
 
 /// The likeliest first: the order in which explanations are given.

@@ -28,6 +28,7 @@ pub(super) fn mistakes(of: &Derivation<'_>) -> Vec<(Mistake, TransferFunction)> 
                 kind: MistakeKind::ParametersSwapped,
                 words: format!("`{first}` and `{second}` are taken for one another"),
                 change: format!("{first} <-> {second}"),
+                places: Vec::new(),
             };
             add(mistake, &parameters);
         }
@@ -40,7 +41,8 @@ pub(super) fn mistakes(of: &Derivation<'_>) -> Vec<(Mistake, TransferFunction)> 
         ] {
             let mut parameters = of.parameters.clone();
             parameters.insert(name.clone(), part);
-            add(Mistake { kind, words: format!("`{name}` is taken {much} as large"), change }, &parameters);
+            let words = format!("`{name}` is taken {much} as large");
+            add(Mistake { kind, words, change, places: Vec::new() }, &parameters);
         }
     }
     all

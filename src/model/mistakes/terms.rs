@@ -1,5 +1,5 @@
 use super::rewrite::negated;
-use super::{Derivation, Mistake, MistakeKind};
+use super::{Derivation, Mistake, MistakeKind, Place};
 use crate::algebra::{Expression, NodeKind, Rational};
 use crate::lti::TransferFunction;
 
@@ -15,8 +15,9 @@ pub(super) fn mistakes(of: &Derivation<'_>) -> Vec<(Mistake, TransferFunction)> 
                 None => format!("the term `{name}` of equation {number}"),
             };
             let mut add = |kind, changed: String, words: String, result: Option<TransferFunction>| {
-                let mistake =
-                    Mistake { kind, words, change: format!("equation {number}: {name} -> {changed}") };
+                let change = format!("equation {number}: {name} -> {changed}");
+                let places = vec![Place { equation: index, start: place.0, end: place.1 }];
+                let mistake = Mistake { kind, words, change, places };
                 all.extend(result.map(|function| (mistake, function)));
             };
             add(

@@ -6,7 +6,7 @@ use crate::lti::TransferFunction;
 pub(super) fn mistakes(of: &Derivation<'_>) -> Vec<(Mistake, TransferFunction)> {
     let mut all = Vec::new();
     let mut add = |kind, words: String, change: String, function: Option<TransferFunction>| {
-        all.extend(function.map(|function| (Mistake { kind, words, change }, function)));
+        all.extend(function.map(|function| (Mistake { kind, words, change, places: Vec::new() }, function)));
     };
     for (title, at) in of.others {
         add(
