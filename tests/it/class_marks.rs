@@ -1,7 +1,7 @@
 //! The program marks `submissions/` as a careful teacher does.
 
-use crate::teacher_marks::{self, Given, Mark};
-use polemark::grading::{self, Catalogue, ItemScore};
+use crate::teacher_marks::{self, Given, Mark, Own};
+use polemark::grading::{self, Catalogue, Guard, ItemScore};
 use polemark::lab::{self, LabDefinition, Points};
 use polemark::reference::Reference;
 use polemark::submission::{self, Folder};
@@ -32,10 +32,26 @@ fn marked(lab: &LabDefinition, reference: &Reference, file: &str) -> BTreeMap<St
         .collect()
 }
 
+/// Marks rest on the student's own earlier answers.
+const FOLLOW_THROUGH_IS_BUILT: bool = false;
+
 fn agrees(item: &ItemScore, given: &Given) -> bool {
     item.earned == given.points
+        && (!FOLLOW_THROUGH_IS_BUILT || given.own.is_none_or(|own| stands(item, own)))
         && given.provisional.is_none_or(|provisional| item.provisional == provisional)
         && given.verdict.is_none_or(|verdict| item.verdict == verdict)
+}
+
+/// Whether the answer stands to the student's own earlier one as the table says.
+fn stands(item: &ItemScore, own: Own) -> bool {
+    let credited = item.follow_through.as_ref().map(|follow| (follow.credited, follow.guard));
+    match own {
+        Own::Follows => credited == Some((true, Guard::Passed)) && !item.code.ends_with(".same_mistake"),
+        Own::Charged => item.code.ends_with(".same_mistake"),
+        Own::Refused => credited.is_some_and(|(credited, guard)| !credited && guard != Guard::Passed),
+        Own::Contradicts => item.code == "stability.contradicts_own",
+        Own::Unsupported => item.code == "stability.unsupported",
+    }
 }
 
 #[test]

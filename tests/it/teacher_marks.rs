@@ -29,7 +29,20 @@ pub struct Given {
     pub provisional: Option<bool>,
     /// Where the table says so: `blank`, `unreadable`.
     pub verdict: Option<Verdict>,
+    /// Where the table says so: how the answer stands to the student's own earlier one.
+    pub own: Option<Own>,
     pub reason: String,
+}
+
+/// How an answer stands to the student's own earlier answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Own {
+    Follows,
+    /// The same mistake, charged before.
+    Charged,
+    Refused,
+    Contradicts,
+    Unsupported,
 }
 
 impl fmt::Display for Given {
@@ -38,8 +51,11 @@ impl fmt::Display for Given {
         if self.provisional == Some(true) {
             write!(f, "?")?;
         }
-        match self.verdict {
-            Some(verdict) => write!(f, " {verdict:?}"),
+        if let Some(verdict) = self.verdict {
+            write!(f, " {verdict:?}")?;
+        }
+        match self.own {
+            Some(own) => write!(f, " {own:?}"),
             None => Ok(()),
         }
     }
@@ -63,7 +79,22 @@ pub fn read(lab: &LabDefinition) -> Vec<Sheet> {
         }
         let (words, reason) = line.split_once(" : ").unwrap_or((line, ""));
         let words: Vec<&str> = words.split_whitespace().collect();
-        let [pattern, given, verdict @ ..] = words.as_slice() else { panic!("{at}: not a mark") };
+        let (pattern, given, word) = match *words.as_slice() {
+            [pattern, given] => (pattern, given, None),
+            [pattern, given, word] => (pattern, given, Some(word)),
+            _ => panic!("{at}: not a mark"),
+        };
+        let (verdict, own) = match word {
+            None => (None, None),
+            Some("blank") => (Some(Verdict::Blank), None),
+            Some("unreadable") => (Some(Verdict::Unreadable), None),
+            Some("follows") => (None, Some(Own::Follows)),
+            Some("charged") => (None, Some(Own::Charged)),
+            Some("refused") => (None, Some(Own::Refused)),
+            Some("contradicts") => (None, Some(Own::Contradicts)),
+            Some("unsupported") => (None, Some(Own::Unsupported)),
+            Some(_) => panic!("{at}: not a verdict"),
+        };
         let sheet = sheets.last_mut().unwrap_or_else(|| panic!("{at}: before the first heading"));
         let give = |id: &str, possible: Points| Given {
             points: match given.trim_end_matches('?') {
@@ -71,14 +102,11 @@ pub fn read(lab: &LabDefinition) -> Vec<Sheet> {
                 number => points(number).unwrap_or_else(|| panic!("{at}: not a number of points")),
             },
             provisional: provisional(id, given),
-            verdict: verdict.first().map(|word| match *word {
-                "blank" => Verdict::Blank,
-                "unreadable" => Verdict::Unreadable,
-                _ => panic!("{at}: not a verdict"),
-            }),
+            verdict,
+            own,
             reason: reason.to_owned(),
         };
-        if *pattern == "program" {
+        if pattern == "program" {
             for id in &last {
                 let mark = sheet.marks.get_mut(id).unwrap_or_else(|| panic!("{at}: no mark above"));
                 mark.program = Some(give(id, Points::ZERO));
