@@ -19,11 +19,16 @@ fn lab() -> LabDefinition {
 }
 
 /// Marks one file, as `grade` does.
-fn marked(lab: &LabDefinition, reference: &Reference, file: &str) -> BTreeMap<String, ItemScore> {
+fn marked(
+    lab: &LabDefinition,
+    reference: &Reference,
+    catalogue: &Catalogue,
+    file: &str,
+) -> BTreeMap<String, ItemScore> {
     let name = format!("{file}.yaml");
     let bytes = fs::read(folder().join(&name)).unwrap_or_else(|error| panic!("{name}: {error}"));
     let submission = submission::read(file, &name, &bytes, &lab.sheet, &Folder(folder()));
-    let scorecard = grading::grade(lab, reference, &Catalogue::default(), &submission, None);
+    let scorecard = grading::grade(lab, reference, catalogue, &submission, None);
     scorecard
         .questions
         .into_iter()
@@ -58,10 +63,11 @@ fn stands(item: &ItemScore, own: Own) -> bool {
 fn the_program_marks_as_the_teacher_does() {
     let lab = lab();
     let reference = Reference::compute(&lab).expect("the embedded lab has a reference");
+    let catalogue = Catalogue::new(&lab, &reference);
     let mut report = String::new();
     let mut disagreements = 0;
     for sheet in teacher_marks::read(&lab) {
-        let items = marked(&lab, &reference, &sheet.file);
+        let items = marked(&lab, &reference, &catalogue, &sheet.file);
         for (id, Mark { given, program }) in &sheet.marks {
             let item = items.get(id).unwrap_or_else(|| panic!("{}: `{id}` was not marked", sheet.file));
             if agrees(item, program.as_ref().unwrap_or(given)) {
