@@ -25,21 +25,140 @@ pub(super) fn closeness(
     typed: &Decimal,
     tolerance: &Tolerance,
 ) -> Closeness {
-    let (Some(expected), Some(bound)) = (from_f64(expected), from_f64(error_bound)) else {
-        return Closeness::Off;
+    Expected::computed(expected, error_bound)
+        .map_or(Closeness::Off, |expected| expected.closeness(typed, tolerance))
+}
+
+/// Lowest and highest number within max(absolute, relative · |expected|) and the error bound; `None` for what is not finite.
+///
+/// Numbers outside may still be right, when they are the expected one correctly rounded.
+#[allow(dead_code, reason = "for poles, and for follow-through")]
+pub(super) fn accepted_interval(
+    expected: f64,
+    error_bound: f64,
+    tolerance: &Tolerance,
+) -> Option<(Rational, Rational)> {
+    Some(Expected::computed(expected, error_bound)?.interval(tolerance))
+}
+
+/// `accepted from -0.8023 to -0.7865 (1 %), or the value correctly rounded to at least 2 figures`: both ends are accepted.
+///
+/// `unit` stands behind the interval; empty for none.
+pub(super) fn accepted_in_words(
+    expected: f64,
+    error_bound: f64,
+    tolerance: &Tolerance,
+    unit: &str,
+) -> String {
+    Expected::computed(expected, error_bound)
+        .map_or_else(|| in_words(tolerance), |expected| expected.accepted_in_words(tolerance, unit))
+}
+
+/// A number that is expected, and what it may itself be off by.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Expected {
+    pub value: Rational,
+    /// Not negative.
+    pub error_bound: Rational,
+}
+
+impl Expected {
+    /// `None` for what is not finite.
+    pub fn computed(value: f64, error_bound: f64) -> Option<Self> {
+        Some(Self { value: from_f64(value)?, error_bound: magnitude(&from_f64(error_bound)?) })
+    }
+
+    pub fn closeness(&self, typed: &Decimal, tolerance: &Tolerance) -> Closeness {
+        let distance = magnitude(&(&typed.value - &self.value));
+        if distance <= self.width(tolerance) + &self.error_bound {
+            return Closeness::Within;
+        }
+        let Some(figures) = tolerance.figures else { return Closeness::Off };
+        if significant_figures(typed) < figures as usize {
+            return Closeness::Off;
+        }
+        let half_a_digit = power_of_ten(typed.last_place) / Rational::from(2);
+        if distance <= half_a_digit + &self.error_bound { Closeness::Rounded } else { Closeness::Off }
+    }
+
+    /// See [`accepted_interval`].
+    pub fn interval(&self, tolerance: &Tolerance) -> (Rational, Rational) {
+        let reach = self.width(tolerance) + &self.error_bound;
+        (&self.value - &reach, &self.value + reach)
+    }
+
+    /// max(absolute, relative · |expected|).
+    fn width(&self, tolerance: &Tolerance) -> Rational {
+        self.relative_width(tolerance).max(tolerance.absolute.clone())
+    }
+
+    fn relative_width(&self, tolerance: &Tolerance) -> Rational {
+        &tolerance.relative * magnitude(&self.value)
+    }
+
+    /// See [`accepted_in_words`].
+    pub fn accepted_in_words(&self, tolerance: &Tolerance, unit: &str) -> String {
+        let interval = self.interval_in_words(tolerance, unit);
+        let range = match interval {
+            Some(interval) => format!("accepted {interval}"),
+            None if self.width(tolerance).is_zero() => "exactly".to_owned(),
+            None => return in_words(tolerance),
+        };
+        match tolerance.figures.filter(|figures| self.rounding_reaches_farther(*figures, tolerance)) {
+            Some(figures) => {
+                format!("{range}, or the value correctly rounded to at least {}", counted(figures))
+            }
+            None => range,
+        }
+    }
+
+    /// `from -0.8023 to -0.7865 (1 %)`; `None` when the interval is too narrow to be written with few digits.
+    fn interval_in_words(&self, tolerance: &Tolerance, unit: &str) -> Option<String> {
+        let width = self.width(tolerance);
+        let (low, high) = self.interval(tolerance);
+        let (low, high) = inward(&low, &high, &width)?;
+        let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+        let how = if self.relative_width(tolerance) > tolerance.absolute {
+            format!(" ({})", percent(&tolerance.relative))
+        } else if magnitude(&self.value) * Rational::from(1000) <= tolerance.absolute {
+            String::new()
+        } else {
+            format!(" (±{})", significant(to_f64(&tolerance.absolute), 3))
+        };
+        Some(format!("from {low} to {high}{unit}{how}"))
+    }
+
+    /// Whether a number of so many figures may be correctly rounded and yet outside of the interval.
+    fn rounding_reaches_farther(&self, figures: u32, tolerance: &Tolerance) -> bool {
+        // Half a unit of the last of n figures is at most a part 1 / (2 · 10^(n−1) − 1) of the number that was rounded.
+        let units = Rational::from(2) * power_of_ten(i32::try_from(figures).unwrap_or(i32::MAX) - 1);
+        magnitude(&self.value) / (units - Rational::ONE) > self.width(tolerance)
+    }
+}
+
+fn counted(figures: u32) -> String {
+    if figures == 1 { "1 figure".to_owned() } else { format!("{figures} figures") }
+}
+
+/// Decimals of few digits just inside of `low` and `high`, as text that says exactly these; `None` when `width`, half of the
+/// interval, is too narrow beside them.
+pub(super) fn inward(low: &Rational, high: &Rational, width: &Rational) -> Option<(String, String)> {
+    const DIGITS: usize = 15;
+    let fine = to_f64(width) / 50.0;
+    if !(fine.is_finite() && fine > 0.0) {
+        return None;
+    }
+    let exponent: i32 = format!("{fine:e}").split_once('e')?.1.parse().ok()?;
+    let unit = power_of_ten(exponent);
+    let shown = |units: Rational| {
+        let text = significant(to_f64(&(&units * &unit)), DIGITS);
+        let short = magnitude(&units) < power_of_ten(DIGITS as i32);
+        short.then_some(text)
     };
-    let distance = magnitude(&(&typed.value - &expected));
-    let relative = &tolerance.relative * magnitude(&expected);
-    let width = if relative > tolerance.absolute { relative } else { tolerance.absolute.clone() };
-    if distance <= width + &bound {
-        return Closeness::Within;
-    }
-    let Some(figures) = tolerance.figures else { return Closeness::Off };
-    if significant_figures(typed) < figures as usize {
-        return Closeness::Off;
-    }
-    let half_a_digit = power_of_ten(typed.last_place) / Rational::from(2);
-    if distance <= half_a_digit + bound { Closeness::Rounded } else { Closeness::Off }
+    let low = Rational::from((low / &unit).ceil());
+    let high = Rational::from((high / &unit).floor());
+    (low <= high).then_some(())?;
+    Some((shown(low)?, shown(high)?))
 }
 
 /// Figures from the first that is not zero to the last one typed: 3 for `0.0412`, 4 for `1.500`, 0 for `0.00`.
@@ -69,7 +188,7 @@ pub(super) fn in_words(tolerance: &Tolerance) -> String {
         (None, None) => "exactly".to_owned(),
     };
     match tolerance.figures {
-        Some(figures) => format!("{width}, or correctly rounded to at least {figures} figures"),
+        Some(figures) => format!("{width}, or correctly rounded to at least {}", counted(figures)),
         None => width,
     }
 }
@@ -92,6 +211,7 @@ pub(super) fn shown(expected: f64, tolerance: &Tolerance) -> String {
 pub(super) mod tests {
     use super::*;
     use crate::algebra::parse_decimal;
+    use proptest::prelude::*;
 
     /// A decimal as a submission gives it; plain notation only.
     pub fn typed(text: &str) -> Decimal {
@@ -155,5 +275,100 @@ pub(super) mod tests {
         );
         assert_eq!(in_words(&tolerance("0", "0.005", None)), "within 0.5 %");
         assert_eq!(in_words(&tolerance("0", "0", None)), "exactly");
+    }
+
+    /// What is said beside an expected number, and the next decimal beyond each end, which is not accepted any more.
+    #[test]
+    fn an_interval_shown_is_the_one_decided() {
+        let near = tolerance("0.001", "0.01", Some(2));
+        for (expected, tolerance, words, beyond) in [
+            (
+                -0.79437,
+                &near,
+                "accepted from -0.8023 to -0.7865 (1 %), or the value correctly rounded to at least 2 figures",
+                Some(("-0.8024", "-0.7864")),
+            ),
+            (0.0, &near, "accepted from -0.001 to 0.001", Some(("-0.00101", "0.00101"))),
+            (
+                128.0,
+                &near,
+                "accepted from 126.72 to 129.28 (1 %), or the value correctly rounded to at least 2 figures",
+                Some(("126.71", "129.29")),
+            ),
+            (
+                -0.0195,
+                &near,
+                "accepted from -0.0205 to -0.0185 (±0.001), or the value correctly rounded to at least 2 figures",
+                Some(("-0.02051", "-0.01849")),
+            ),
+            (
+                5.5864,
+                &tolerance("0", "0.01", Some(3)),
+                "accepted from 5.531 to 5.642 (1 %)",
+                Some(("5.530", "5.643")),
+            ),
+            (12.5, &tolerance("0", "0", None), "exactly", None),
+            (
+                12.5,
+                &tolerance("0", "0", Some(1)),
+                "exactly, or the value correctly rounded to at least 1 figure",
+                None,
+            ),
+            (
+                1e-12,
+                &tolerance("0", "0.01", None),
+                "accepted from 9.9e-13 to 1.01e-12 (1 %)",
+                Some(("9.89e-13", "1.011e-12")),
+            ),
+            (
+                -2.5e8,
+                &tolerance("0", "0.1", None),
+                "accepted from -2.75e8 to -2.25e8 (10 %)",
+                Some(("-2.76e8", "-2.24e8")),
+            ),
+            (1.0, &tolerance("1e-17", "0", None), "within 1e-17", None),
+        ] {
+            let bound = 1e-15 * f64::abs(expected);
+            assert_eq!(accepted_in_words(expected, bound, tolerance, ""), words, "{expected}");
+            let Some((below, above)) = beyond else { continue };
+            let mut ends = words.split(' ').skip(2).step_by(2);
+            let (low, high) = (ends.next().unwrap(), ends.next().unwrap());
+            let strict = Tolerance { figures: None, ..tolerance.clone() };
+            let got = |text: &str| closeness(expected, bound, &Decimal::parse(text).unwrap(), &strict);
+            assert_eq!(got(low), Closeness::Within, "{low} for {expected}");
+            assert_eq!(got(high), Closeness::Within, "{high} for {expected}");
+            assert_eq!(got(below), Closeness::Off, "{below} for {expected}");
+            assert_eq!(got(above), Closeness::Off, "{above} for {expected}");
+        }
+        assert_eq!(
+            accepted_in_words(2.0, 0.0, &tolerance("0", "0.01", None), "rad/s"),
+            "accepted from 1.98 to 2.02 rad/s (1 %)"
+        );
+        assert_eq!(accepted_in_words(f64::NAN, 0.0, &near, ""), in_words(&near));
+        assert_eq!(accepted_interval(f64::INFINITY, 0.0, &near), None);
+    }
+
+    proptest! {
+        /// Both ends that are shown are accepted, and a thousandth of the width inside of the decided ones is as well.
+        #[test]
+        fn shown_ends_are_accepted(
+            digits in -1_000_000i64..1_000_000,
+            place in -12i32..12,
+            relative in 0u32..200,
+            absolute in 0u32..50,
+            bound in 0u32..3,
+        ) {
+            let expected = digits as f64 * 10f64.powi(place);
+            let bound = f64::from(bound) * 1e-12 * expected.abs();
+            let tolerance = tolerance(&format!("{absolute}e-4"), &format!("{relative}e-3"), None);
+            let words = accepted_in_words(expected, bound, &tolerance, "");
+            if let Some(rest) = words.strip_prefix("accepted from ") {
+                let mut ends = rest.split(' ').step_by(2);
+                for end in [ends.next().unwrap(), ends.next().unwrap()] {
+                    let typed = Decimal::parse(end).unwrap();
+                    prop_assert_eq!(closeness(expected, bound, &typed, &tolerance), Closeness::Within, "{} in {}", end, words);
+                }
+            }
+        }
     }
 }

@@ -1,19 +1,22 @@
 use super::Evidence;
 use super::accepted::{Accepted, also};
-use super::closeness::{Closeness, closeness, in_words, percent, shown};
+use super::closeness::{Closeness, accepted_in_words, closeness, percent, shown};
 use super::mark::Mark;
 use crate::algebra::{Rational, from_f64};
 use crate::lab::{FeatureKind, Points, Tolerance};
 use crate::lti::{Features, Limit};
 use crate::submission::{Decimal, FinalValue};
 
-/// Of a feature computed in floating point, relative.
+/// What a feature computed in floating point may be off by, as a part of itself,
 const COMPUTED_TO: f64 = 1e-9;
+/// and as a part of the response's largest value (its slowest time constant, for a time): what is left of a zero.
+const RESIDUE: f64 = 1e-11;
 
 /// What a feature is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Truth {
-    Number(f64),
+    /// A number, and what it may itself be off by.
+    Number(f64, f64),
     PlusInfinity,
     MinusInfinity,
     /// Swings for ever, bounded or growing: there is no limit, and no side it goes to.
@@ -23,20 +26,25 @@ enum Truth {
 }
 
 fn truth(features: &Features, feature: FeatureKind) -> Truth {
-    let number = |value: Option<f64>| value.map_or(Truth::None, Truth::Number);
+    let finite = |size: f64| if size.is_finite() { size.abs() } else { 0.0 };
+    let extrema = features.extrema.iter().map(|extremum| finite(extremum.value));
+    let largest = extrema.fold(finite(features.initial_value), f64::max);
+    let slowest = features.slowest_time_constant_s.map_or(0.0, finite);
+    let number = |value: f64, scale: f64| Truth::Number(value, COMPUTED_TO * value.abs() + RESIDUE * scale);
+    let optional = |value: Option<f64>, scale: f64| value.map_or(Truth::None, |value| number(value, scale));
     match feature {
-        FeatureKind::InitialValue => Truth::Number(features.initial_value),
+        FeatureKind::InitialValue => number(features.initial_value, largest),
         FeatureKind::FinalValue => match features.final_value {
-            Limit::Value(value) => Truth::Number(value),
+            Limit::Value(value) => number(value, largest),
             Limit::PlusInfinity => Truth::PlusInfinity,
             Limit::MinusInfinity => Truth::MinusInfinity,
             Limit::Oscillates | Limit::OscillatesUnbounded => Truth::NoLimit,
         },
-        FeatureKind::Peak => number(features.peak.map(|peak| peak.value)),
-        FeatureKind::PeriodS => number(features.period_s),
-        FeatureKind::DampingRatio => number(features.damping_ratio),
-        FeatureKind::SettlingTime2PercentS => number(features.settling_time_2_percent_s),
-        FeatureKind::SettlingTime5PercentS => number(features.settling_time_5_percent_s),
+        FeatureKind::Peak => optional(features.peak.map(|peak| peak.value), largest),
+        FeatureKind::PeriodS => optional(features.period_s, slowest),
+        FeatureKind::DampingRatio => optional(features.damping_ratio, 1.0),
+        FeatureKind::SettlingTime2PercentS => optional(features.settling_time_2_percent_s, slowest),
+        FeatureKind::SettlingTime5PercentS => optional(features.settling_time_5_percent_s, slowest),
     }
 }
 
@@ -48,14 +56,14 @@ pub(super) fn expected(
 ) -> String {
     let Some(main) = accepted.first() else { return String::new() };
     match truth(main.what, feature) {
-        Truth::Number(value) => {
+        Truth::Number(value, bound) => {
             let own = shown(value, tolerance);
             let same = |one: &Accepted<'_, Features>| match truth(one.what, feature) {
-                Truth::Number(value) => shown(value, tolerance) == own,
+                Truth::Number(value, _) => shown(value, tolerance) == own,
                 _ => false,
             };
             let others = if accepted.iter().all(same) { String::new() } else { also(accepted) };
-            format!("{own}, {}.{others}", in_words(tolerance))
+            format!("{own}; {}.{others}", accepted_in_words(value, bound, tolerance, ""))
         }
         Truth::PlusInfinity => "It grows without bound, to +∞.".to_owned(),
         Truth::MinusInfinity => "It grows without bound, to -∞.".to_owned(),
@@ -95,8 +103,10 @@ pub(super) fn judge(
 
 fn compare(truth: Truth, tolerance: &Tolerance, typed: &FinalValue, with: &str) -> (&'static str, String) {
     match (truth, typed) {
-        (Truth::Number(want), FinalValue::Number(have)) => compare_numbers(want, tolerance, have, with),
-        (Truth::Number(want), _) => {
+        (Truth::Number(want, bound), FinalValue::Number(have)) => {
+            compare_numbers(want, bound, tolerance, have, with)
+        }
+        (Truth::Number(want, _), _) => {
             let reason =
                 format!("The value is a number, {}: it does not grow without bound.", shown(want, tolerance));
             ("value.number_given_unbounded", reason)
@@ -125,8 +135,14 @@ fn compare(truth: Truth, tolerance: &Tolerance, typed: &FinalValue, with: &str) 
     }
 }
 
-fn compare_numbers(want: f64, tolerance: &Tolerance, have: &Decimal, with: &str) -> (&'static str, String) {
-    let near = |value: f64| closeness(value, value.abs() * COMPUTED_TO, have, tolerance);
+fn compare_numbers(
+    want: f64,
+    bound: f64,
+    tolerance: &Tolerance,
+    have: &Decimal,
+    with: &str,
+) -> (&'static str, String) {
+    let near = |value: f64| closeness(value, bound, have, tolerance);
     let shown = shown(want, tolerance);
     match near(want) {
         Closeness::Within => ("right", format!("It is within the tolerance of {shown}{with}.")),
