@@ -3,6 +3,7 @@ use super::super::{Rational, symbol_mathml};
 use super::text::{Level, number_text};
 use super::{Expression, Function, NodeKind};
 use std::borrow::Cow;
+use std::ops::Range;
 
 impl Expression {
     /// As a textbook prints it, in MathML without the `<math>` around it.
@@ -10,45 +11,235 @@ impl Expression {
     /// Quotients are fractions, products stand side by side, primes are dots, names of Greek letters are letters.
     /// Each term of a sum is one `<mrow>`.
     pub fn to_mathml(&self) -> String {
-        sum(self)
+        Printer { marked: Vec::new(), wrap: &str::to_owned }.sum(self)
+    }
+
+    /// As [`Self::to_mathml`], with the parts at `places` (bytes of the parsed text) put through `wrap`, each once.
+    ///
+    /// A part is the largest node within a place; several stand side by side where the place is not one node. Where it
+    /// is less than a node, the smallest node about it is marked. Places that are no part of the tree change nothing.
+    pub fn to_mathml_marked(&self, places: &[Range<usize>], wrap: &dyn Fn(&str) -> String) -> String {
+        let mut marked = Vec::new();
+        for place in places.iter().filter(|place| !place.is_empty()) {
+            parts_within(self, place, &mut marked);
+        }
+        marked.sort_unstable();
+        marked.dedup();
+        Printer { marked, wrap }.sum(self)
     }
 }
 
-/// A sum as a row of terms; anything else as one term.
-fn sum(node: &Expression) -> String {
-    let mut terms = Vec::new();
-    collect_terms(node, false, &mut terms);
-    let mut row = String::from("<mrow>");
-    for (i, (negative, term)) in terms.iter().enumerate() {
-        match (i, negative) {
-            (0, false) => {}
-            (_, false) => row.push_str("<mo>+</mo>"),
-            (_, true) => row.push_str("<mo>−</mo>"),
+/// Adds the bytes of the nodes that make up `place`; `false` when it lies elsewhere.
+fn parts_within(node: &Expression, place: &Range<usize>, found: &mut Vec<(usize, usize)>) -> bool {
+    if node.end <= place.start || place.end <= node.start {
+        return false;
+    }
+    if place.start <= node.start && node.end <= place.end {
+        found.push((node.start, node.end));
+        return true;
+    }
+    let mut any = false;
+    for child in node.children() {
+        any |= parts_within(child, place, found);
+    }
+    if !any && node.start <= place.start && place.end <= node.end {
+        found.push((node.start, node.end));
+        any = true;
+    }
+    any
+}
+
+/// What is marked, by the bytes of its nodes, and how.
+struct Printer<'a> {
+    marked: Vec<(usize, usize)>,
+    wrap: &'a dyn Fn(&str) -> String,
+}
+
+/// A term of a sum.
+struct Term<'a> {
+    negative: bool,
+    node: Cow<'a, Expression>,
+    /// The sign that was taken out of it belongs to what is marked.
+    marked: bool,
+}
+
+impl<'a> Term<'a> {
+    fn new(negative: bool, node: &'a Expression) -> Self {
+        Self { negative, node: Cow::Borrowed(node), marked: false }
+    }
+}
+
+impl Printer<'_> {
+    fn is_marked(&self, node: &Expression) -> bool {
+        self.marked.binary_search(&(node.start, node.end)).is_ok()
+    }
+
+    fn marked(&self, node: &Expression, mathml: String) -> String {
+        if self.is_marked(node) { (self.wrap)(&mathml) } else { mathml }
+    }
+
+    /// A sum as a row of terms; anything else as one term.
+    fn sum(&self, node: &Expression) -> String {
+        let row = self.row(node);
+        // A single term carries its mark itself.
+        match node.kind {
+            NodeKind::Add(..) | NodeKind::Subtract(..) => self.marked(node, row),
+            _ => row,
         }
-        row.push_str("<mrow>");
-        row.push_str(&product(term, Position::Last));
+    }
+
+    fn row(&self, node: &Expression) -> String {
+        let mut terms = Vec::new();
+        self.collect_terms(node, true, false, &mut terms);
+        let mut row = String::from("<mrow>");
+        for (i, term) in terms.iter().enumerate() {
+            let sign = match (i, term.negative) {
+                (0, false) => "",
+                (_, false) => "<mo>+</mo>",
+                (_, true) => "<mo>−</mo>",
+            };
+            let inner = match term.node.kind {
+                // A sum within the sum, kept together only to be marked.
+                NodeKind::Add(..) | NodeKind::Subtract(..) if !term.negative => self.sum(&term.node),
+                _ => format!("<mrow>{}</mrow>", self.product(&term.node, Position::Last)),
+            };
+            if term.marked {
+                row.push_str(&(self.wrap)(&format!("<mrow>{sign}{inner}</mrow>")));
+            } else {
+                row.push_str(sign);
+                row.push_str(&inner);
+            }
+        }
         row.push_str("</mrow>");
+        row
     }
-    row.push_str("</mrow>");
-    row
-}
 
-/// The terms of a sum with their signs, left to right. What parentheses hold together on the right of a minus stays one term.
-fn collect_terms<'a>(node: &'a Expression, negative: bool, terms: &mut Vec<(bool, Cow<'a, Expression>)>) {
-    match &node.kind {
-        NodeKind::Add(a, b) if !negative => {
-            collect_terms(a, false, terms);
-            collect_terms(b, false, terms);
+    /// The terms of a sum with their signs, left to right. What parentheses hold together on the right of a minus stays one term.
+    fn collect_terms<'a>(
+        &self,
+        node: &'a Expression,
+        whole: bool,
+        negative: bool,
+        terms: &mut Vec<Term<'a>>,
+    ) {
+        match &node.kind {
+            NodeKind::Add(..) | NodeKind::Subtract(..) if !whole && !negative && self.is_marked(node) => {
+                terms.push(Term::new(false, node));
+            }
+            NodeKind::Add(a, b) if !negative => {
+                self.collect_terms(a, false, false, terms);
+                self.collect_terms(b, false, false, terms);
+            }
+            NodeKind::Subtract(a, b) if !negative => {
+                self.collect_terms(a, false, false, terms);
+                self.collect_terms(b, false, true, terms);
+            }
+            _ if !negative && terms.is_empty() => match without_leading_sign(node) {
+                Some(rest) => {
+                    let marked = self.is_marked(node);
+                    // Its own bytes are spent: the mark stands about the sign as well.
+                    let rest = if marked { Expression { start: 0, end: 0, ..rest } } else { rest };
+                    terms.push(Term { negative: true, node: Cow::Owned(rest), marked });
+                }
+                None => terms.push(Term::new(false, node)),
+            },
+            _ => terms.push(Term::new(negative, node)),
         }
-        NodeKind::Subtract(a, b) if !negative => {
-            collect_terms(a, false, terms);
-            terms.push((true, Cow::Borrowed(b)));
+    }
+
+    fn product(&self, node: &Expression, position: Position) -> String {
+        match &node.kind {
+            NodeKind::Multiply(a, b) => {
+                let left = self.product(a, Position::Followed);
+                let right = match b.kind {
+                    // a·(b·c) was grouped by hand: keep the group visible only where it changes the reading.
+                    NodeKind::Multiply(..) => self.product(b, position),
+                    _ => self.factor(b, position),
+                };
+                let whole = format!("{left}{}{right}", between(a, b));
+                if self.is_marked(node) { (self.wrap)(&format!("<mrow>{whole}</mrow>")) } else { whole }
+            }
+            _ => self.factor(node, position),
         }
-        _ if !negative && terms.is_empty() => match without_leading_sign(node) {
-            Some(rest) => terms.push((true, Cow::Owned(rest))),
-            None => terms.push((false, Cow::Borrowed(node))),
-        },
-        _ => terms.push((negative, Cow::Borrowed(node))),
+    }
+
+    fn factor(&self, node: &Expression, position: Position) -> String {
+        let mathml = match &node.kind {
+            NodeKind::Number(value) => number(value),
+            NodeKind::Pi => "<mi>π</mi>".to_owned(),
+            NodeKind::Symbol { name, primes } => symbol_mathml(name, *primes),
+            NodeKind::Divide(a, b) => format!("<mfrac>{}{}</mfrac>", self.sum(a), self.sum(b)),
+            NodeKind::Power(a, b) => self.raised(a, b, position),
+            NodeKind::Call(function, a) => self.call(*function, None, a, position),
+            NodeKind::Negate(_) | NodeKind::Add(..) | NodeKind::Subtract(..) | NodeKind::Multiply(..) => {
+                self.parenthesized(node)
+            }
+        };
+        self.marked(node, mathml)
+    }
+
+    /// A group of its own: marked with its parentheses.
+    fn parenthesized(&self, node: &Expression) -> String {
+        let marked = self.marked.iter().copied().filter(|bytes| *bytes != (node.start, node.end)).collect();
+        Printer { marked, wrap: self.wrap }.enclosed(node)
+    }
+
+    /// In the parentheses of a function or a power: marked within them.
+    fn enclosed(&self, node: &Expression) -> String {
+        format!("<mrow><mo>(</mo>{}<mo>)</mo></mrow>", self.sum(node))
+    }
+
+    fn raised(&self, base: &Expression, exponent: &Expression, position: Position) -> String {
+        if let (NodeKind::Call(function, a), NodeKind::Number(n)) = (&base.kind, &exponent.kind)
+            && *n > Rational::ONE
+            && n.is_int()
+            && !matches!(function, Function::Exp | Function::Sqrt | Function::Abs)
+            && !self.is_marked(base)
+            && !self.is_marked(exponent)
+        {
+            return self.call(*function, Some(n), a, position);
+        }
+        let bare = Level::of(base) == Level::Atom
+            && !matches!(base.kind, NodeKind::Call(function, _) if function != Function::Abs);
+        let base = if bare { self.factor(base, Position::Last) } else { self.enclosed(base) };
+        format!("<msup>{base}{}</msup>", self.sum(exponent))
+    }
+
+    /// A function's name upright, its argument in parentheses unless a single name ends the product.
+    fn call(
+        &self,
+        function: Function,
+        power: Option<&Rational>,
+        argument: &Expression,
+        position: Position,
+    ) -> String {
+        match function {
+            Function::Sqrt => return format!("<msqrt>{}</msqrt>", self.sum(argument)),
+            Function::Abs => return format!("<mrow><mo>|</mo>{}<mo>|</mo></mrow>", self.sum(argument)),
+            Function::Exp => {
+                return format!("<msup><mi mathvariant=\"normal\">e</mi>{}</msup>", self.sum(argument));
+            }
+            _ => {}
+        }
+        let name = match function {
+            Function::Asin => "arcsin",
+            Function::Acos => "arccos",
+            Function::Atan => "arctan",
+            Function::Sign => "sgn",
+            other => other.name(),
+        };
+        let name = match power {
+            None => format!("<mi>{name}</mi>"),
+            Some(power) => format!("<msup><mi>{name}</mi>{}</msup>", number(power)),
+        };
+        let bare =
+            position == Position::Last && matches!(argument.kind, NodeKind::Symbol { .. } | NodeKind::Pi);
+        let argument = if bare {
+            format!("<mspace width=\"0.17em\"/>{}", self.factor(argument, position))
+        } else {
+            self.enclosed(argument)
+        };
+        format!("<mrow>{name}<mo>\u{2061}</mo>{argument}</mrow>")
     }
 }
 
@@ -69,21 +260,6 @@ fn without_leading_sign(node: &Expression) -> Option<Expression> {
 enum Position {
     Followed,
     Last,
-}
-
-fn product(node: &Expression, position: Position) -> String {
-    match &node.kind {
-        NodeKind::Multiply(a, b) => {
-            let left = product(a, Position::Followed);
-            let right = match b.kind {
-                // a·(b·c) was grouped by hand: keep the group visible only where it changes the reading.
-                NodeKind::Multiply(..) => product(b, position),
-                _ => factor(b, position),
-            };
-            format!("{left}{}{right}", between(a, b))
-        }
-        _ => factor(node, position),
-    }
 }
 
 /// What stands between two factors.
@@ -133,66 +309,6 @@ fn is_word(node: &Expression) -> bool {
         NodeKind::Power(base, _) => is_word(base),
         _ => false,
     }
-}
-
-fn factor(node: &Expression, position: Position) -> String {
-    match &node.kind {
-        NodeKind::Number(value) => number(value),
-        NodeKind::Pi => "<mi>π</mi>".to_owned(),
-        NodeKind::Symbol { name, primes } => symbol_mathml(name, *primes),
-        NodeKind::Divide(a, b) => format!("<mfrac>{}{}</mfrac>", sum(a), sum(b)),
-        NodeKind::Power(a, b) => raised(a, b, position),
-        NodeKind::Call(function, a) => call(*function, None, a, position),
-        NodeKind::Negate(_) | NodeKind::Add(..) | NodeKind::Subtract(..) | NodeKind::Multiply(..) => {
-            parenthesized(node)
-        }
-    }
-}
-
-fn parenthesized(node: &Expression) -> String {
-    format!("<mrow><mo>(</mo>{}<mo>)</mo></mrow>", sum(node))
-}
-
-fn raised(base: &Expression, exponent: &Expression, position: Position) -> String {
-    if let (NodeKind::Call(function, a), NodeKind::Number(n)) = (&base.kind, &exponent.kind)
-        && *n > Rational::ONE
-        && n.is_int()
-        && !matches!(function, Function::Exp | Function::Sqrt | Function::Abs)
-    {
-        return call(*function, Some(n), a, position);
-    }
-    let bare = Level::of(base) == Level::Atom
-        && !matches!(base.kind, NodeKind::Call(function, _) if function != Function::Abs);
-    let base = if bare { factor(base, Position::Last) } else { parenthesized(base) };
-    format!("<msup>{base}{}</msup>", sum(exponent))
-}
-
-/// A function's name upright, its argument in parentheses unless a single name ends the product.
-fn call(function: Function, power: Option<&Rational>, argument: &Expression, position: Position) -> String {
-    match function {
-        Function::Sqrt => return format!("<msqrt>{}</msqrt>", sum(argument)),
-        Function::Abs => return format!("<mrow><mo>|</mo>{}<mo>|</mo></mrow>", sum(argument)),
-        Function::Exp => return format!("<msup><mi mathvariant=\"normal\">e</mi>{}</msup>", sum(argument)),
-        _ => {}
-    }
-    let name = match function {
-        Function::Asin => "arcsin",
-        Function::Acos => "arccos",
-        Function::Atan => "arctan",
-        Function::Sign => "sgn",
-        other => other.name(),
-    };
-    let name = match power {
-        None => format!("<mi>{name}</mi>"),
-        Some(power) => format!("<msup><mi>{name}</mi>{}</msup>", number(power)),
-    };
-    let bare = position == Position::Last && matches!(argument.kind, NodeKind::Symbol { .. } | NodeKind::Pi);
-    let argument = if bare {
-        format!("<mspace width=\"0.17em\"/>{}", factor(argument, position))
-    } else {
-        parenthesized(argument)
-    };
-    format!("<mrow>{name}<mo>\u{2061}</mo>{argument}</mrow>")
 }
 
 fn number(value: &Rational) -> String {
@@ -262,6 +378,64 @@ mod tests {
             ("1e-9", "<msup>10−9</msup>"),
             ("2.5e-9*x", "2.5·<msup>10−9</msup>x"),
         ]);
+    }
+
+    /// A formula, the part of it that is marked, and what is read aloud, the mark in square brackets.
+    #[track_caller]
+    fn check_marked(rows: &[(&str, &str, &str)]) {
+        for (text, part, expected) in rows {
+            let tree = Expression::parse(text).unwrap();
+            let start = text.find(part).unwrap();
+            let place = start..start + part.len();
+            let marked = tree.to_mathml_marked(&[place.clone(), place], &|inner| format!("[{inner}]"));
+            assert_eq!(plain(&marked), *expected, "{part} of {text}");
+            let unmarked = marked.replace(['[', ']'], "");
+            assert_eq!(plain(&unmarked), plain(&tree.to_mathml()), "{part} of {text}: nothing else changes");
+        }
+    }
+
+    #[test]
+    fn a_part_is_marked_where_it_stands() {
+        check_marked(&[
+            ("a + m*g*l*sin(x) - b", "m*g*l*sin(x)", "a+[mgl sin x]−b"),
+            ("a + b*x' - c", "a + b*x'", "[a+b<mover>x˙</mover>]−c"),
+            ("a + b*x' - c", "- c", "a+b<mover>x˙</mover>−[c]"),
+            ("a - b", "a - b", "[a−b]"),
+            ("(I + m*l^2)*x", "m*l^2", "(I+[m<msup>l2</msup>])x"),
+            ("(I + m*l^2)*x", "(I + m*l^2)", "[(I+m<msup>l2</msup>)]x"),
+            ("(I + m*l^2)*x", "I + m*l^2", "([I]+[m<msup>l2</msup>])x"),
+            ("m*l^2", "l", "m<msup>[l]2</msup>"),
+            ("m*l^2", "l^2", "m[<msup>l2</msup>]"),
+            ("m*l^2", "2", "m<msup>l[2]</msup>"),
+            ("m*g*l", "g*l", "m[g][l]"),
+            ("-a + b", "-a", "[−a]+b"),
+            ("-a*b", "-a*b", "[−ab]"),
+            ("-a*b", "a", "−[a]b"),
+            ("a*(-b)", "(-b)", "a[(−b)]"),
+            ("a - (b - c)", "(b - c)", "a−[(b−c)]"),
+            ("a + (b + c)", "(b + c)", "a+[b+c]"),
+            ("cos(x)*y", "x", "cos([x])y"),
+            ("cos(x + y)", "y", "cos(x+[y])"),
+            ("(a/b)^2", "a/b", "<msup>(<mfrac>[a][b]</mfrac>)2</msup>"),
+            ("sqrt(h)/2", "h", "<mfrac><msqrt>[h]</msqrt>2</mfrac>"),
+        ]);
+    }
+
+    /// cos² x has no place of its own for cos x.
+    #[test]
+    fn a_marked_base_leaves_its_power() {
+        let tree = Expression::parse("cos(x)^2").unwrap();
+        let marked = |place| plain(&tree.to_mathml_marked(&[place], &|inner| format!("[{inner}]")));
+        assert_eq!(marked(0..6), "<msup>([cos x])2</msup>");
+        assert_eq!(marked(0..8), "[<msup>cos2</msup> x]");
+    }
+
+    #[test]
+    fn a_place_outside_changes_nothing() {
+        let tree = Expression::parse("a + b").unwrap();
+        for place in [0..0, 5..9, 90..99, usize::MAX - 1..usize::MAX] {
+            assert_eq!(tree.to_mathml_marked(&[place], &|_| String::new()), tree.to_mathml());
+        }
     }
 
     #[test]
