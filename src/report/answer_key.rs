@@ -441,6 +441,7 @@ fn key_question(question: &Question, kit: &super::kit::QuestionKit) -> KeyQuesti
                 yours_html: String::new(),
                 reference_heading: super::answers::reference_heading(f.kind),
                 reference_html: f.reference_html.clone(),
+                conflicts: Vec::new(),
             })
             .collect(),
         criteria: question

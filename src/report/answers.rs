@@ -2,8 +2,9 @@
 
 use super::escape::escape;
 use super::figures::{limit_words, root_words};
+use super::math;
 use super::numbers::{number, quantity, typographic};
-use super::{math, prose};
+use super::prose::{self, Highlight};
 use crate::algebra::to_f64;
 use crate::lab::{Check, Criterion, FeatureKind, SystemRef};
 use crate::lti::{Features, InputKind};
@@ -15,11 +16,12 @@ use crate::submission::{
 };
 use base64::Engine as _;
 
-/// The answer as HTML; `None` stands for a blank.
-pub fn yours(answer: Option<&Answer>, prompt: &str) -> String {
+/// The answer as HTML, with words of prose marked; `None` stands for a blank.
+pub fn yours(answer: Option<&Answer>, prompt: &str, marks: &[Highlight]) -> String {
     let Some(answer) = answer else { return "<span class=\"waiting\">left blank</span>".to_owned() };
     match &answer.value {
         Err(_) => format!("{}<p class=\"waiting\">cannot be read</p>", typed(&answer.text)),
+        Ok(AnswerValue::Prose(markdown)) => prose::to_html_marked(markdown, marks),
         Ok(value) => value_html(value, prompt),
     }
 }

@@ -1,22 +1,19 @@
 use super::anchor::question_anchor;
-use super::class_summary::ClassSummary;
 use super::figure::FigureError;
 use super::figures::parting_words;
 use super::pictures::{self, Picture};
-use super::{answer_key, answers, class_page, prose, student};
-use crate::grading::Scorecard;
+use super::{answers, prose};
 use crate::lab::{LabDefinition, Question, SystemRef};
 use crate::reference::Reference;
-use crate::submission::{FieldKind, Submission};
+use crate::submission::FieldKind;
 use minijinja::syntax::SyntaxConfig;
-use minijinja::value::Serde;
 use minijinja::{Environment, UndefinedBehavior};
 
 /// Everything in the reports that does not depend on a student: templates read, question texts and reference figures rendered.
 ///
 /// Made once a lab and shared between threads.
 pub struct ReportKit {
-    environment: Environment<'static>,
+    pub(super) environment: Environment<'static>,
     pub(super) lab: LabDefinition,
     pub(super) reference: Reference,
     pub(super) questions: Vec<QuestionKit>,
@@ -73,30 +70,6 @@ impl ReportKit {
         let questions =
             lab.questions.iter().map(|q| QuestionKit::new(lab, reference, q)).collect::<Result<_, _>>()?;
         Ok(Self { environment, lab: lab.clone(), reference: reference.clone(), questions })
-    }
-
-    /// The report of one submission, one self-contained HTML file.
-    pub fn student_page(&self, submission: &Submission, scorecard: &Scorecard) -> String {
-        self.render("student.html", &student::page(self, submission, scorecard))
-    }
-
-    /// The answer key: from the equations to every reference answer.
-    pub fn reference_page(&self) -> String {
-        self.render("reference.html", &answer_key::page(self))
-    }
-
-    /// `index.html` of a class.
-    pub fn class_page(&self, summary: &ClassSummary) -> String {
-        self.render("class.html", &class_page::page(self, summary))
-    }
-
-    fn render(&self, template: &str, page: &impl serde::Serialize) -> String {
-        let rendered = self.environment.get_template(template).and_then(|t| t.render(Serde(page)));
-        // Templates and views are ours, and tested together; if they disagree all the same, the reader is told.
-        rendered.unwrap_or_else(|e| {
-            let words = prose::as_typed(&format!("polemark could not write this page: {e:#}"));
-            format!("<!doctype html><html lang=\"en\"><title>Report</title>{words}</html>")
-        })
     }
 }
 

@@ -6,6 +6,7 @@ use crate::algebra::{
 };
 use crate::lti::TransferFunction;
 use crate::model::Equation;
+use std::ops::Range;
 
 /// Figures shown of a coefficient: what was computed, what was typed.
 pub const FIGURES: usize = 6;
@@ -33,6 +34,14 @@ pub fn formula(typed: &Expression) -> String {
 /// An equation of motion as printed in the lab.
 pub fn equation(e: &Equation) -> String {
     block(&format!("{}<mo>=</mo>{}", e.left.to_mathml(), e.right.to_mathml()))
+}
+
+/// The same with the parts at `places` (bytes of its text) in boxes that say `here`.
+pub fn marked_equation(e: &Equation, places: &[Range<usize>]) -> String {
+    let boxed =
+        |inner: &str| format!("<munder><mrow class=\"here\">{inner}</mrow><mtext>here</mtext></munder>");
+    let side = |side: &Expression| side.to_mathml_marked(places, &boxed);
+    block(&format!("{}<mo>=</mo>{}", side(&e.left), side(&e.right)))
 }
 
 /// A linearized equation: the terms, in the given order, equal 0; signs are turned so that the first is positive.

@@ -5,14 +5,24 @@ mod answer_key;
 mod answers;
 mod class_page;
 mod class_summary;
+mod conflicts;
 mod escape;
+#[cfg(test)]
+mod explaining_tests;
 pub mod figure;
 pub mod figures;
+mod items;
 mod kit;
+mod ledger;
+mod marked_equation;
 mod math;
 pub mod numbers;
+mod opening;
+mod pages;
 mod pictures;
+mod places;
 pub mod prose;
+mod quotes;
 mod student;
 pub mod svg;
 #[cfg(test)]

@@ -5,10 +5,10 @@
 
 use super::escape::{escape, is_harmless};
 use super::numbers::typeset;
-use crate::grading::{PhraseMatch, Stance};
 use ammonia::{Builder, UrlRelative};
 use pulldown_cmark::{Event, LinkType, Options, Parser, Tag, TagEnd};
 use pulldown_latex::config::{DisplayMode, RenderConfig};
+use std::ops::Range;
 use std::sync::LazyLock;
 
 const LONGEST_TEXT: usize = 20_000;
@@ -19,21 +19,110 @@ const MOST_BRACES: usize = 50;
 
 /// `markdown` as safe HTML. What is too long is cut, what nests too deep is shown as it was typed.
 pub fn to_html(markdown: &str) -> String {
+    to_html_marked(markdown, &[])
+}
+
+/// Words to be marked, and what is set behind them: `1`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Highlight {
+    /// Bytes of the Markdown.
+    pub bytes: Range<usize>,
+    /// Letters and digits, commas and spaces.
+    pub label: String,
+}
+
+/// As [`to_html`], with words marked. Marks outside the text, or in what is shown as it was typed, are left out.
+pub fn to_html_marked(markdown: &str, marks: &[Highlight]) -> String {
     let (text, left_out) = cut(markdown);
     let clean: String = text.chars().filter(|c| is_harmless(*c)).collect();
-    let text = clean.as_str();
-    let mut html = match events(text) {
+    let marks = without_dropped(text, marks);
+    let mut html = match events(&clean) {
         Some(events) => {
-            let mut out = String::with_capacity(2 * text.len());
-            pulldown_cmark::html::push_html(&mut out, events.into_iter());
+            let mut out = String::with_capacity(2 * clean.len());
+            pulldown_cmark::html::push_html(&mut out, highlighted(&clean, events, &marks).into_iter());
             CLEANER.clean(&out).to_string()
         }
-        None => as_typed(text),
+        None => as_typed(&clean),
     };
     if left_out > 0 {
         html.push_str(&format!("<p>… {left_out} more bytes are not shown.</p>"));
     }
     html
+}
+
+/// Where the marks stand once the characters that are not harmless are gone.
+fn without_dropped(text: &str, marks: &[Highlight]) -> Vec<Highlight> {
+    let dropped: Vec<(usize, usize)> =
+        text.char_indices().filter(|(_, c)| !is_harmless(*c)).map(|(at, c)| (at, c.len_utf8())).collect();
+    let moved = |at: usize| {
+        at - dropped
+            .iter()
+            .take_while(|(place, _)| *place < at)
+            .map(|(_, length)| length)
+            .sum::<usize>()
+            .min(at)
+    };
+    marks
+        .iter()
+        .filter(|mark| text.get(mark.bytes.clone()).is_some())
+        .map(|mark| Highlight {
+            bytes: moved(mark.bytes.start)..moved(mark.bytes.end),
+            label: mark.label.clone(),
+        })
+        .filter(|mark| !mark.bytes.is_empty())
+        .collect()
+}
+
+/// An event and the bytes it comes from.
+type Placed<'a> = (Event<'a>, Range<usize>);
+
+/// The events with `<mark>` about what is marked, the label behind the last of it. Marks must not overlap.
+fn highlighted<'a>(text: &'a str, events: Vec<Placed<'a>>, marks: &[Highlight]) -> Vec<Event<'a>> {
+    let can_be_marked =
+        |event: &Event<'_>| matches!(event, Event::Text(_) | Event::Code(_) | Event::InlineHtml(_));
+    let meet = |a: &Range<usize>, b: &Range<usize>| a.start < b.end && b.start < a.end;
+    let lasts: Vec<Option<usize>> = marks
+        .iter()
+        .map(|mark| {
+            events.iter().rposition(|(event, bytes)| can_be_marked(event) && meet(bytes, &mark.bytes))
+        })
+        .collect();
+    let mut out = Vec::with_capacity(events.len() + 4 * marks.len());
+    for (i, (event, bytes)) in events.into_iter().enumerate() {
+        let here: Vec<usize> = match can_be_marked(&event) {
+            true => (0..marks.len()).filter(|&m| meet(&bytes, &marks[m].bytes)).collect(),
+            false => Vec::new(),
+        };
+        // Text that stands in the page as it stands in the file can be marked in part.
+        let literal = matches!(&event, Event::Text(shown) if text.get(bytes.clone()) == Some(shown.as_ref()));
+        let mut at = bytes.start;
+        for &m in &here {
+            let part = if literal {
+                let (start, end) = (marks[m].bytes.start.max(at), marks[m].bytes.end.min(bytes.end));
+                if at < start {
+                    out.push(Event::Text(text[at..start].into()));
+                }
+                at = end;
+                Event::Text(text[start..end].into())
+            } else {
+                event.clone()
+            };
+            out.push(Event::InlineHtml("<mark class=\"conflict\">".into()));
+            out.push(part);
+            let label =
+                if lasts[m] == Some(i) { format!("<sup>{}</sup>", marks[m].label) } else { String::new() };
+            out.push(Event::InlineHtml(format!("</mark>{label}").into()));
+            if !literal {
+                break;
+            }
+        }
+        match (here.is_empty(), literal) {
+            (true, _) => out.push(event),
+            (false, true) if at < bytes.end => out.push(Event::Text(text[at..bytes.end].into())),
+            _ => {}
+        }
+    }
+    out
 }
 
 /// Sentences of ours as HTML: `what stands in backticks` as code, the mathematics of the rest as print has it.
@@ -61,55 +150,6 @@ pub fn as_typed(text: &str) -> String {
     out
 }
 
-/// Words of the prose that counted, with a little of what stands around them.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
-pub struct Quote {
-    pub before: String,
-    pub words: String,
-    pub after: String,
-    /// The concept they were taken for.
-    pub concept: String,
-    /// They deny what was asked for.
-    pub against: bool,
-}
-
-/// The matches as quotations, at most eight.
-pub fn quotes(prose: &str, phrases: &[PhraseMatch]) -> Vec<Quote> {
-    const CONTEXT: usize = 48;
-    phrases
-        .iter()
-        .filter_map(|p| {
-            let words = prose.get(p.span.start..p.span.end).filter(|w| !w.is_empty())?;
-            let before = &prose[..p.span.start];
-            let after = &prose[p.span.end..];
-            let from = floor(before, before.len().saturating_sub(CONTEXT));
-            let from = if from == 0 {
-                0
-            } else {
-                from + before[from..].find(char::is_whitespace).map_or(0, |i| i + 1)
-            };
-            let to = floor(after, CONTEXT.min(after.len()));
-            let whole = to == after.len();
-            let to = if whole {
-                after.trim_end().len()
-            } else {
-                after[..to].rfind(char::is_whitespace).unwrap_or(to)
-            };
-            let one_line = |t: &str| t.replace(|c: char| c.is_control() || !is_harmless(c), " ");
-            let lead = if from > 0 { "…" } else { "" };
-            let trail = if whole { "" } else { "…" };
-            Some(Quote {
-                before: format!("{lead}{}", one_line(&before[from..])),
-                words: one_line(words),
-                after: format!("{}{trail}", one_line(&after[..to])),
-                concept: p.concept.clone(),
-                against: p.stance == Stance::Denies,
-            })
-        })
-        .take(8)
-        .collect()
-}
-
 /// The start of `text` that is shown, and how many bytes are not.
 fn cut(text: &str) -> (&str, usize) {
     let end = floor(text, LONGEST_TEXT.min(text.len()));
@@ -125,13 +165,13 @@ fn floor(text: &str, mut index: usize) -> usize {
 }
 
 /// Harmless events; `None` when there are too many or they nest too deep.
-fn events(text: &str) -> Option<Vec<Event<'_>>> {
+fn events(text: &str) -> Option<Vec<Placed<'_>>> {
     let options = Options::ENABLE_TABLES | Options::ENABLE_MATH | Options::ENABLE_STRIKETHROUGH;
     let mut out = Vec::new();
     let mut depth = 0;
     // For each open link, whether it is kept.
     let mut links = Vec::new();
-    for event in Parser::new_ext(text, options) {
+    for (event, bytes) in Parser::new_ext(text, options).into_offset_iter() {
         match &event {
             Event::Start(_) => depth += 1,
             Event::End(_) => depth -= 1,
@@ -146,11 +186,11 @@ fn events(text: &str) -> Option<Vec<Event<'_>>> {
             Event::End(TagEnd::HtmlBlock) => Event::End(TagEnd::Paragraph),
             // The page has its own headings.
             Event::Start(Tag::Heading { .. }) => {
-                out.push(Event::Start(Tag::Paragraph));
+                out.push((Event::Start(Tag::Paragraph), bytes.clone()));
                 Event::Start(Tag::Strong)
             }
             Event::End(TagEnd::Heading(_)) => {
-                out.push(Event::End(TagEnd::Strong));
+                out.push((Event::End(TagEnd::Strong), bytes.clone()));
                 Event::End(TagEnd::Paragraph)
             }
             Event::Start(Tag::Link { link_type, dest_url, .. }) => {
@@ -174,7 +214,7 @@ fn events(text: &str) -> Option<Vec<Event<'_>>> {
             Event::DisplayMath(source) => formula(&source, DisplayMode::Block),
             other => other,
         };
-        out.push(harmless);
+        out.push((harmless, bytes));
     }
     Some(out)
 }
@@ -230,6 +270,9 @@ static CLEANER: LazyLock<Builder<'static>> = LazyLock::new(|| {
         "th",
         "td",
         "a",
+        // Ours: a student's own are text by now.
+        "mark",
+        "sup",
     ];
     let math = [
         "math",
@@ -295,7 +338,8 @@ static CLEANER: LazyLock<Builder<'static>> = LazyLock::new(|| {
     ];
     let of_math = math.map(|tag| (tag, math_attributes.into_iter().collect()));
     let of_text = [("a", ["href"]), ("ol", ["start"])].map(|(tag, list)| (tag, list.into_iter().collect()));
-    let classes = ["mtable", "mtr", "mtd"].map(|tag| (tag, table_classes.into_iter().collect()));
+    let tables = ["mtable", "mtr", "mtd"].map(|tag| (tag, table_classes.into_iter().collect()));
+    let classes = tables.into_iter().chain([("mark", ["conflict"].into())]);
     let mut cleaner = Builder::empty();
     cleaner
         .tags(text.into_iter().chain(math).collect())
@@ -305,14 +349,13 @@ static CLEANER: LazyLock<Builder<'static>> = LazyLock::new(|| {
         .url_relative(UrlRelative::Deny)
         .link_rel(Some("noopener noreferrer nofollow"))
         .clean_content_tags(["script", "style"].into())
-        .allowed_classes(classes.into());
+        .allowed_classes(classes.collect());
     cleaner
 });
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::source::Span;
 
     #[track_caller]
     fn check(rows: &[(&str, &str, &[&str], &[&str])]) {
@@ -393,21 +436,5 @@ mod tests {
         assert_eq!(sentences("`-1,5` is not -1.5 s^2"), "<code>-1,5</code> is not −1.5 s²");
         assert_eq!(sentences("a ` alone <b>"), "a ` alone &lt;b&gt;");
         assert_eq!(sentences("`<b>` and `"), "<code>&lt;b&gt;</code> and `");
-    }
-
-    #[test]
-    fn quotes_show_words_in_their_place() {
-        let prose = "We expect it to oscillate\nabout θ = 0 and not to settle.";
-        let at = |words: &str, stance| {
-            let start = prose.find(words).unwrap();
-            PhraseMatch { span: Span { start, end: start + words.len() }, concept: "c".into(), stance }
-        };
-        let off =
-            PhraseMatch { span: Span { start: 34, end: 900 }, concept: "c".into(), stance: Stance::Claims };
-        let got = quotes(prose, &[at("oscillate", Stance::Claims), at("not to settle", Stance::Denies), off]);
-        assert_eq!(got.len(), 2, "a span outside the text is passed over");
-        assert_eq!((got[0].before.as_str(), got[0].words.as_str()), ("We expect it to ", "oscillate"));
-        assert_eq!(got[0].after, " about θ = 0 and not to settle.");
-        assert!(got[1].against && !got[0].against);
     }
 }

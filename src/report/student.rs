@@ -1,15 +1,15 @@
 //! One submission's report as a view.
 
-use super::anchor::item_anchor;
 use super::answers;
 use super::kit::{QuestionKit, ReportKit};
-use super::numbers::typeset;
+use super::ledger::{self, LedgerView};
 use super::prose;
 use super::view::{
-    AnswerView, BoxView, DiagnosisView, FigureView, FindingView, ItemView, LevelView, ObservedView,
+    AnswerView, BoxView, DiagnosisView, FigureView, FindingView, ItemGroup, LevelView, ObservedView,
     OutcomeView, TallyView, VerdictView,
 };
-use crate::grading::{Diagnosis, ItemScore, QuestionScore, Scorecard, Tally};
+use super::{conflicts, items, opening};
+use crate::grading::{Scorecard, Tally};
 use crate::lab::{LabDefinition, ObservedRow, Points, Question};
 use crate::source::{Finding, SourceText, sanitize};
 use crate::submission::{AnswerValue, Submission};
@@ -25,7 +25,11 @@ pub struct StudentPage {
     cover: Vec<BoxView>,
     findings_intro: &'static str,
     findings: Vec<FindingView>,
+    /// What is right, what to look at again, and what it did not cost.
+    opening_html: Vec<String>,
     total: TallyView,
+    /// Where each point went.
+    ledger: Option<LedgerView>,
     legend: Vec<VerdictView>,
     questions: Vec<QuestionView>,
     observed: Vec<ObservedView>,
@@ -52,7 +56,7 @@ struct QuestionView {
     long_answers: Vec<AnswerView>,
     figures: Vec<FigureView>,
     remark: String,
-    items: Vec<ItemView>,
+    items: Vec<ItemGroup>,
     diagnosis: Option<DiagnosisView>,
 }
 
@@ -76,9 +80,11 @@ pub fn page(kit: &ReportKit, submission: &Submission, scorecard: &Scorecard) -> 
             "The file as a whole could not be read, so nothing in it could be marked."
         },
         findings: findings(submission),
+        opening_html: if submission.readable { opening::paragraphs(lab, scorecard) } else { Vec::new() },
         total: TallyView::new(&scorecard.total),
+        ledger: ledger::view(lab, scorecard),
         legend: VerdictView::legend(),
-        questions: questions.map(|(q, kit)| question(q, kit, submission, scorecard)).collect(),
+        questions: questions.map(|(q, kit)| question(lab, q, kit, submission, scorecard)).collect(),
         observed: lab.observed.iter().map(|row| observed(row, scorecard)).collect(),
         observed_levels: lab.observed.first().map(level_titles).unwrap_or_default(),
         outcomes: lab
@@ -128,6 +134,7 @@ fn cover(lab: &LabDefinition, scorecard: &Scorecard) -> Vec<BoxView> {
 }
 
 fn question(
+    lab: &LabDefinition,
     question: &Question,
     kit: &QuestionKit,
     submission: &Submission,
@@ -138,11 +145,18 @@ fn question(
     let (mut short_answers, mut long_answers) = (Vec::new(), Vec::new());
     for field in &kit.fields {
         let answer = submission.answers.get(&field.path);
+        let (marks, conflicts) = match (score, answer.map(|a| &a.value)) {
+            (Some(score), Some(Ok(AnswerValue::Prose(text)))) => {
+                conflicts::of_field(question, &score.items, &field.path, text)
+            }
+            _ => Default::default(),
+        };
         let view = AnswerView {
             prompt: field.prompt.clone(),
-            yours_html: answers::yours(answer, &field.prompt),
+            yours_html: answers::yours(answer, &field.prompt, &marks),
             reference_heading: answers::reference_heading(field.kind),
             reference_html: field.reference_html.clone(),
+            conflicts,
         };
         if answers::is_short(field.kind, answer.is_some()) {
             short_answers.push(view);
@@ -160,67 +174,11 @@ fn question(
         long_answers,
         figures: kit.pictures.iter().flat_map(|p| p.for_student(submission)).collect(),
         remark: kit.remark.clone(),
-        items: score.map(|s| items(question, s, submission)).unwrap_or_default(),
-        diagnosis: score.and_then(|s| s.items.iter().find_map(|i| i.diagnosis.as_ref())).map(diagnosis),
+        items: score.map(|s| items::groups(lab, question, s, scorecard, submission)).unwrap_or_default(),
+        diagnosis: score
+            .and_then(|s| s.items.iter().find_map(|i| i.diagnosis.as_ref()))
+            .map(|diagnosis| items::diagnosis(lab, diagnosis)),
     }
-}
-
-/// What may have gone wrong on the way to a transfer function.
-fn diagnosis(diagnosis: &Diagnosis) -> DiagnosisView {
-    let lead = match diagnosis.explanations.len() {
-        0 => format!(
-            "No single slip explains what you wrote; {} wrong turns were followed to their end. Going through the \
-             derivation line by line, beside the reference, is the way to find it.",
-            diagnosis.searched
-        ),
-        1 => "What you wrote comes out when one follows the equations with this change:".to_owned(),
-        _ => "What you wrote comes out when one follows the equations with any one of these changes:"
-            .to_owned(),
-    };
-    let explanations = diagnosis.explanations.iter().map(|e| prose::sentences(&sanitize(&e.words)));
-    DiagnosisView { lead, explanations_html: explanations.collect() }
-}
-
-fn items(question: &Question, score: &QuestionScore, submission: &Submission) -> Vec<ItemView> {
-    let mut views: Vec<ItemView> = score.items.iter().map(|i| item(question, i, submission)).collect();
-    // Criteria that judge the same answer need not repeat it.
-    for i in (1..views.len()).rev() {
-        if views[i].found == views[i - 1].found {
-            views[i].found.clear();
-        }
-    }
-    views
-}
-
-fn item(question: &Question, item: &ItemScore, submission: &Submission) -> ItemView {
-    let field = question.criteria.iter().find(|c| c.id == item.id).map(|c| c.field.as_str());
-    let answer = field.and_then(|f| submission.answers.get(f)).and_then(|a| a.value.as_ref().ok());
-    let quotes = match answer {
-        Some(AnswerValue::Prose(text)) => prose::quotes(text, &item.evidence.phrases),
-        _ => Vec::new(),
-    };
-    ItemView {
-        anchor: item_anchor(&item.id),
-        title: item.title.clone(),
-        verdict: VerdictView::of(item.verdict),
-        earned: item.earned.to_string(),
-        possible: item.possible.to_string(),
-        expected: typeset(&sanitize(&item.evidence.expected)),
-        found: typeset(&cropped(&item.evidence.found)),
-        reason_html: prose::sentences(&sanitize(&item.evidence.reason)),
-        quotes: quotes.into_iter().map(Into::into).collect(),
-        provisional: item.provisional,
-        override_reason: item.override_reason.as_deref().map(sanitize),
-        place: item.position.map(|p| format!("line {}, column {}", p.line, p.column)),
-    }
-}
-
-/// What was found, on one line and not longer than a paragraph.
-fn cropped(found: &str) -> String {
-    const LONGEST: usize = 300;
-    let start: String = found.chars().take(LONGEST).collect();
-    let more = if start.len() < found.len() { " …" } else { "" };
-    format!("{}{more}", sanitize(&start))
 }
 
 fn findings(submission: &Submission) -> Vec<FindingView> {

@@ -12,14 +12,14 @@ use crate::submission::{self, Answer, AnswerValue, NoFiles, Student, Submission}
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
-struct Fixture {
-    lab: LabDefinition,
-    reference: Reference,
-    catalogue: Catalogue,
-    kit: ReportKit,
+pub(super) struct Fixture {
+    pub lab: LabDefinition,
+    pub reference: Reference,
+    pub catalogue: Catalogue,
+    pub kit: ReportKit,
 }
 
-static FIXTURE: LazyLock<Fixture> = LazyLock::new(|| {
+pub(super) static FIXTURE: LazyLock<Fixture> = LazyLock::new(|| {
     let lab = lab::load(lab::DEFAULT).expect("the embedded lab reads");
     let reference = Reference::compute(&lab).expect("the embedded lab computes");
     let kit = ReportKit::new(&lab, &reference).expect("its figures can be drawn");
@@ -33,11 +33,11 @@ fn page(submission: &Submission) -> (Scorecard, String) {
     (scorecard, page)
 }
 
-fn read(yaml: &str) -> Submission {
+pub(super) fn read(yaml: &str) -> Submission {
     submission::read("s", "s.yaml", yaml.as_bytes(), &FIXTURE.lab.sheet, &NoFiles)
 }
 
-const HOSTILE: [&str; 12] = [
+pub(super) const HOSTILE: [&str; 12] = [
     "<script>alert(1)</script>",
     "</style><style>*{display:none}</style>",
     "\" onload=\"alert(1)",
@@ -135,13 +135,13 @@ fn tags(html: &str) -> Vec<(String, Vec<(String, String)>)> {
 }
 
 #[track_caller]
-fn check_page(what: &str, html: &str) {
+pub(super) fn check_page(what: &str, html: &str) {
     const ELEMENTS: &str = "html head meta title style body a header main section footer nav h1 h2 h3 p dl div dt dd \
         table caption thead tbody tfoot tr th td span strong em del code pre ol ul li q mark figure figcaption img br hr \
-        blockquote details summary svg desc path text math mrow mi mn mo mtext mspace mfrac msqrt mroot msup msub \
+        blockquote sup details summary svg desc path text math mrow mi mn mo mtext mspace mfrac msqrt mroot msup msub \
         msubsup munder mover munderover mtable mtr mtd mpadded mphantom mstyle";
     const ATTRIBUTES: &str = "lang charset name content http-equiv class href id aria-labelledby aria-label aria-hidden \
-        role scope style viewBox d x y text-anchor alt width height src display accent stretchy mathvariant symmetric \
+        role scope colspan value style viewBox d x y text-anchor alt width height src display accent stretchy mathvariant symmetric \
         fence separator lspace rspace minsize maxsize movablelimits largeop form accentunder linethickness rel open \
         start displaystyle scriptlevel columnspan rowspan depth";
     let (elements, attributes): (BTreeSet<_>, BTreeSet<_>) =

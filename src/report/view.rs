@@ -1,6 +1,7 @@
 //! What the templates place. Every number is already text; fields ending in `_html` are markup made by this module.
 
-use super::prose::Quote;
+use super::marked_equation::MarkedEquation;
+use super::quotes::Quote;
 use crate::grading::{Tally, Verdict};
 use crate::lab::Points;
 use serde::Serialize;
@@ -95,6 +96,13 @@ pub struct BoxView {
     pub waiting: &'static str,
 }
 
+/// A link to a place on the same page.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LinkView {
+    pub anchor: String,
+    pub words: String,
+}
+
 /// One field of a question: what was asked, written, and right.
 #[derive(Clone, Debug, Serialize)]
 pub struct AnswerView {
@@ -102,6 +110,48 @@ pub struct AnswerView {
     pub yours_html: String,
     pub reference_heading: &'static str,
     pub reference_html: String,
+    /// Words of the answer that do not go with something else.
+    pub conflicts: Vec<ConflictView>,
+}
+
+/// Marked words of the answer, under their number.
+#[derive(Clone, Debug, Serialize)]
+pub struct ConflictView {
+    pub number: usize,
+    pub words: String,
+    pub claim: String,
+    pub against_html: String,
+    /// `your own answer`, `the reference`.
+    pub with: &'static str,
+}
+
+/// A criterion, or several in a row that were left blank.
+#[derive(Clone, Debug, Serialize)]
+pub struct ItemGroup {
+    pub item: Option<ItemView>,
+    pub blanks: Vec<BlankView>,
+}
+
+/// A criterion for which nothing was written.
+#[derive(Clone, Debug, Serialize)]
+pub struct BlankView {
+    pub anchor: String,
+    pub title: String,
+    pub earned: String,
+    pub possible: String,
+}
+
+/// How an answer stands to an earlier one of the same student.
+#[derive(Clone, Debug, Serialize)]
+pub struct FollowView {
+    pub class: &'static str,
+    /// `right for your own transfer function`
+    pub badge: String,
+    /// `The mistake is charged at`
+    pub before: &'static str,
+    pub root: Option<LinkView>,
+    /// `, and only there.`
+    pub after: String,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -114,7 +164,8 @@ pub struct ItemView {
     pub expected: String,
     pub found: String,
     pub reason_html: String,
-    pub quotes: Vec<QuoteView>,
+    pub quotes: Vec<Quote>,
+    pub follow: Option<FollowView>,
     pub provisional: bool,
     pub override_reason: Option<String>,
     /// `line 12, column 3`
@@ -125,22 +176,13 @@ pub struct ItemView {
 #[derive(Serialize)]
 pub struct DiagnosisView {
     pub lead: String,
-    pub explanations_html: Vec<String>,
+    pub explanations: Vec<ExplanationView>,
 }
 
-/// A quotation and what it was taken for.
-#[derive(Clone, Debug, Serialize)]
-pub struct QuoteView {
-    #[serde(flatten)]
-    pub quote: Quote,
-    pub stance: &'static str,
-}
-
-impl From<Quote> for QuoteView {
-    fn from(quote: Quote) -> Self {
-        let stance = if quote.against { "speaks against:" } else { "taken for:" };
-        Self { quote, stance }
-    }
+#[derive(Serialize)]
+pub struct ExplanationView {
+    pub words_html: String,
+    pub equations: Vec<MarkedEquation>,
 }
 
 #[derive(Clone, Debug, Serialize)]
