@@ -141,7 +141,7 @@ mod tests {
         check(
             "overlapping ones are one",
             &[at("to oscillate", "o", Claims), at("oscillate\nabout", "o", Claims)],
-            &["We expect it [to oscillate about] θ = 0 and not to settle. Much later,…"],
+            &["We expect it [to oscillate about] θ = 0 and not to settle. Much later, when…"],
         );
         check(
             "for and against stand apart",
