@@ -1,5 +1,5 @@
 use super::Marked;
-use crate::grading::Diagnosis;
+use crate::grading::{Cause, Diagnosis, FollowThrough, Ledger};
 use crate::source::Severity;
 use serde::Serialize;
 
@@ -37,8 +37,10 @@ pub fn results_line(marked: &Marked) -> Result<String, serde_json::Error> {
                 line: item.position.map(|p| p.line),
                 column: item.position.map(|p| p.column),
                 diagnosis: item.diagnosis.as_ref().map(DiagnosisView::of),
+                follow_through: item.follow_through.as_ref().map(FollowThroughView::of),
             })
             .collect(),
+        ledger: LedgerView::of(&marked.scorecard.ledger),
         findings: submission
             .findings
             .iter()
@@ -65,6 +67,7 @@ struct Line<'a> {
     students: Vec<StudentView<'a>>,
     total: Total,
     items: Vec<Item<'a>>,
+    ledger: LedgerView<'a>,
     findings: Vec<FindingView<'a>>,
     report: &'a str,
 }
@@ -94,6 +97,61 @@ struct Item<'a> {
     line: Option<usize>,
     column: Option<usize>,
     diagnosis: Option<DiagnosisView<'a>>,
+    follow_through: Option<FollowThroughView<'a>>,
+}
+
+#[derive(Serialize)]
+struct FollowThroughView<'a> {
+    credited: bool,
+    guard: &'static str,
+    root: &'a str,
+}
+
+impl<'a> FollowThroughView<'a> {
+    fn of(followed: &'a FollowThrough) -> Self {
+        Self { credited: followed.credited, guard: followed.guard.as_str(), root: &followed.root }
+    }
+}
+
+#[derive(Serialize)]
+struct LedgerView<'a> {
+    lost: Vec<LossView<'a>>,
+    spared: Vec<SparedView<'a>>,
+}
+
+#[derive(Serialize)]
+struct LossView<'a> {
+    item: &'a str,
+    points: f64,
+    cause: &'static str,
+    root: Option<&'a str>,
+}
+
+#[derive(Serialize)]
+struct SparedView<'a> {
+    item: &'a str,
+    points: f64,
+    root: &'a str,
+}
+
+impl<'a> LedgerView<'a> {
+    fn of(ledger: &'a Ledger) -> Self {
+        let lost = ledger.lost.iter().map(|loss| LossView {
+            item: &loss.item,
+            points: loss.points.as_f64(),
+            cause: loss.cause.as_str(),
+            root: match &loss.cause {
+                Cause::Part { root } | Cause::Refused { root, .. } => Some(root),
+                _ => None,
+            },
+        });
+        let spared = ledger.spared.iter().map(|spared| SparedView {
+            item: &spared.item,
+            points: spared.points.as_f64(),
+            root: &spared.root,
+        });
+        Self { lost: lost.collect(), spared: spared.collect() }
+    }
 }
 
 #[derive(Serialize)]

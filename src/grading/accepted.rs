@@ -18,7 +18,12 @@ impl<T: ?Sized> Clone for Accepted<'_, T> {
 
 impl<T: ?Sized> Copy for Accepted<'_, T> {}
 
-impl<T: ?Sized> Accepted<'_, T> {
+impl<'a, T: ?Sized> Accepted<'a, T> {
+    /// A part of it, with the same parameter values.
+    pub fn pick<U: ?Sized>(&self, part: impl Fn(&'a T) -> &'a U) -> Accepted<'a, U> {
+        Accepted { differs: self.differs, what: part(self.what) }
+    }
+
     /// ` with g = 9.8`, or nothing for the lab's own values.
     pub fn with(&self) -> String {
         if self.differs.is_empty() {

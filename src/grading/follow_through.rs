@@ -1,3 +1,18 @@
+use super::accepted::{Accepted, transfer_function_of};
+use super::closeness::percent;
+use super::grade::{Field, Grader};
+use super::guard::{self, Guard};
+use super::mark::{Mark, share};
+use super::own::OwnModel;
+use super::own_poles::OwnPoles;
+use super::truth::Truth;
+use super::{Evidence, Verdict, stability};
+use crate::algebra::Rational;
+use crate::lab::{Check, Criterion, Curve, LabDefinition, Points, Question, SystemRef};
+use crate::lti::TransferFunction;
+use crate::submission::{AnswerValue, stability_name};
+use std::cell::OnceCell;
+
 /// How an answer stands to the student's own earlier answer, on which it rests.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FollowThrough {
@@ -10,26 +25,385 @@ pub struct FollowThrough {
     pub own: String,
 }
 
-/// Whether an earlier answer may be followed: it must not make the later parts easier than the reference does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Guard {
-    Passed,
-    /// Its numerator or denominator is not of the order asked for.
-    Order,
-    /// Hardly a model: too few terms, every coefficient ±1, all poles at one place.
-    Trivial,
-    /// It is what belongs to another operating point.
-    OtherPoint,
-}
+/// What a criterion earns once a person has had a say.
+pub(super) type Earned<'a> = &'a dyn Fn(&Criterion, &Mark) -> Points;
 
-impl Guard {
-    /// The word tools read: `passed`, `order`, `trivial`, `other_point`.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Passed => "passed",
-            Self::Order => "order",
-            Self::Trivial => "trivial",
-            Self::OtherPoint => "other_point",
+/// Judges every criterion that is not right by the reference again, against the student's own earlier answers.
+///
+/// `marks` are those by the reference, by question and criterion. No mark is lowered.
+pub(super) fn follow(lab: &LabDefinition, grader: &Grader<'_>, earned: Earned<'_>, marks: &mut [Vec<Mark>]) {
+    let functions = own_functions(lab, grader, earned, marks);
+    // Words of stability rest on poles as well, so they come last.
+    for words in [false, true] {
+        for (question, asked) in lab.questions.iter().enumerate() {
+            for (index, criterion) in asked.criteria.iter().enumerate() {
+                let Some(of) = of_system(&criterion.check) else { continue };
+                let Some(base) = marks.get(question).and_then(|marks| marks.get(index)) else { continue };
+                let judged = matches!(base.verdict, Verdict::Right | Verdict::Partly | Verdict::Wrong);
+                if !judged || matches!(criterion.check, Check::Stability { .. }) != words {
+                    continue;
+                }
+                let function = functions.iter().find(|known| known.of == of && known.question <= question);
+                let follower = Follower { lab, grader, criterion, question, base, function };
+                let next = if words {
+                    follower.word_of_stability(follower.own_poles(of, earned, marks))
+                } else {
+                    follower.anything_else()
+                };
+                if let Some(next) = next {
+                    marks[question][index] = next;
+                }
+            }
         }
     }
+}
+
+/// The system on whose own model an answer can rest.
+fn of_system(check: &Check) -> Option<&SystemRef> {
+    match check {
+        Check::Poles { of, .. }
+        | Check::Stability { of }
+        | Check::Feature { of, .. }
+        | Check::Shape { of, .. }
+        | Check::Plot { curve: Curve::Response { of, .. }, .. } => Some(of),
+        _ => None,
+    }
+}
+
+/// A criterion whose answer may rest on an earlier one.
+struct Follower<'a> {
+    lab: &'a LabDefinition,
+    grader: &'a Grader<'a>,
+    criterion: &'a Criterion,
+    /// Its question's place in the lab.
+    question: usize,
+    /// The mark by the reference.
+    base: &'a Mark,
+    function: Option<&'a OwnFunction<'a>>,
+}
+
+impl Follower<'_> {
+    /// `None`: the mark stays as it is.
+    fn anything_else(&self) -> Option<Mark> {
+        if self.base.verdict == Verdict::Right {
+            return None;
+        }
+        let (premise, ways) = self.own_function()?;
+        let ways = match self.criterion.check {
+            Check::Poles { .. } => ways,
+            // To a response common factors make no difference.
+            _ => &ways[..ways.len().min(1)],
+        };
+        let own = ways
+            .iter()
+            .map(|way| self.grader.criterion(self.criterion, Truth::Own(way)))
+            .reduce(|best, next| if next.earned > best.earned { next } else { best })?;
+        self.resting_on(&premise, own)
+    }
+
+    fn own_function(&self) -> Option<(Premise, &[OwnModel])> {
+        let function = self.function?;
+        let (guard, ways) = function.model.get_or_init(|| {
+            let ways = OwnModel::ways(function.typed);
+            let short = ways.first().map_or(function.typed, |way| &way.function);
+            let tolerance = coefficient_tolerance(self.lab, function.of);
+            (guard::of_function(short, self.grader.reference, function.of, &tolerance), ways)
+        });
+        let root = function.root.clone();
+        Some((self.premise(OWN_FUNCTION, function.question, function.field, root, *guard), ways))
+    }
+
+    /// `question`, `field`: where the earlier answer stands.
+    fn premise(
+        &self,
+        own: &'static str,
+        question: usize,
+        field: &str,
+        root: Option<String>,
+        guard: Guard,
+    ) -> Premise {
+        let number = |question: &Question| match question.number.as_str() {
+            "" => format!("“{}”", question.title),
+            number => number.to_owned(),
+        };
+        let asked = self.lab.questions.get(question).filter(|_| question != self.question);
+        let whose = asked.map_or_else(String::new, |asked| format!(" of {}", number(asked)));
+        let charged_elsewhere = |root: &String| {
+            let has =
+                |asked: &&Question| asked.criteria.iter().any(|one| one.id == *root && one.field != field);
+            self.lab.questions.iter().find(has).map(number)
+        };
+        let charged_in = root.as_ref().and_then(charged_elsewhere);
+        Premise { own, whose, root, charged_in, guard }
+    }
+
+    /// The mark by the earlier answer in place of the one by the reference, where that earns more.
+    fn resting_on(&self, premise: &Premise, own: Mark) -> Option<Mark> {
+        let (base, points) = (self.base, self.criterion.points);
+        let expected = || {
+            let (reference, own) = (&base.evidence.expected, &own.evidence.expected);
+            if reference == own {
+                reference.clone()
+            } else {
+                format!("{reference} For {}: {own}", premise.own)
+            }
+        };
+        let name = premise.name();
+        let Some(root) = &premise.root else {
+            // An earlier answer that lost nothing is as good as the reference, to its digits.
+            let reason = format!("It agrees with {name}, which is right within its digits.");
+            let evidence = Evidence { expected: expected(), reason, ..own.evidence.clone() };
+            let provisional = base.provisional || own.provisional;
+            return (own.earned > base.earned).then_some(Mark { evidence, provisional, ..own });
+        };
+        if self.criterion.follow_through.is_zero() || own.verdict == Verdict::Unmarked {
+            return None;
+        }
+        let follow_through = |credited| {
+            let own = premise.own.to_owned();
+            Some(FollowThrough { credited, guard: premise.guard, root: root.clone(), own })
+        };
+        if own.earned <= base.earned {
+            let nothing = premise.guard == Guard::Passed && own.earned == Points::ZERO;
+            let words = match own.code {
+                "plot.too_short" | "plot.too_few_points" => {
+                    format!("Held against {name}: {}", own.evidence.reason)
+                }
+                _ => format!("It does not follow from {name} either."),
+            };
+            return nothing.then(|| Mark { follow_through: follow_through(false), ..said(base, &words) });
+        }
+        if premise.guard != Guard::Passed {
+            let why = premise.why_refused();
+            let words = format!("It would follow from {name}, but {why}, so that cannot be followed.");
+            return Some(Mark { follow_through: follow_through(false), ..said(base, &words) });
+        }
+        let earned = share(own.earned, &self.criterion.follow_through);
+        if earned <= base.earned {
+            return None;
+        }
+        let charged = match &premise.charged_in {
+            None => format!("{name}, where the mistake was charged"),
+            Some(question) => format!("{name}, for a mistake that was charged in {question}"),
+        };
+        let mut reason = if own.earned == points {
+            format!("It does not agree with the reference, but it follows rightly from {charged}.")
+        } else {
+            format!("It does not agree with the reference. Held against {charged}: {}", own.evidence.reason)
+        };
+        if self.criterion.follow_through < Rational::ONE {
+            let part = percent(&self.criterion.follow_through);
+            reason.push_str(&format!(" That earns {part} of the points."));
+        }
+        Some(Mark {
+            verdict: if earned == points { Verdict::Right } else { Verdict::Partly },
+            code: follows(&self.criterion.check),
+            earned,
+            evidence: Evidence { expected: expected(), reason, ..own.evidence.clone() },
+            provisional: base.provisional || own.provisional,
+            follow_through: follow_through(true),
+            spared: Points(earned.0 - base.earned.0),
+            withheld: Points(own.earned.0 - earned.0),
+            ..base.clone()
+        })
+    }
+
+    /// The word, held against the student's own poles where there are any, and against their own transfer function.
+    fn word_of_stability(&self, poles: Option<(Premise, OwnPoles)>) -> Option<Mark> {
+        let Field::Value(_, AnswerValue::Stability(word)) = self.grader.field(&self.criterion.field) else {
+            return None;
+        };
+        let function = self.own_function();
+        // Too few poles say nothing of the rest.
+        let telling = poles.as_ref().filter(|(premise, _)| premise.guard != Guard::Order);
+        let against = match (telling, &function) {
+            (Some((premise, own)), _) => (!own.are(*word)).then(|| (premise, own.stability())),
+            (None, Some((premise, ways))) => {
+                let is = ways.iter().any(|way| way.stability == *word);
+                ways.first().filter(|_| !is).map(|way| (premise, way.stability))
+            }
+            (None, None) => None,
+        };
+        if self.base.verdict == Verdict::Right {
+            let (premise, says) = against?;
+            let (own, says) = (premise.name(), stability_name(says));
+            let words = format!("It is not what {own} would give: by that, it is {says}.");
+            return Some(Mark { code: "stability.unsupported", ..said(self.base, &words) });
+        }
+        let by_poles = poles.iter().filter(|(_, own)| own.are(*word)).map(|(premise, _)| premise);
+        let by_function = function
+            .iter()
+            .filter(|(_, ways)| ways.iter().any(|way| way.stability == *word))
+            .map(|(premise, _)| premise);
+        let premises: Vec<&Premise> = by_poles.chain(by_function).collect();
+        let right = |premise: &Premise| {
+            let own = Accepted { differs: &[], what: word };
+            self.resting_on(premise, stability::judge(self.criterion.points, &[own], None, *word))
+        };
+        let stands = |premise: &&&Premise| premise.root.is_none() || premise.guard == Guard::Passed;
+        if let Some(premise) = premises.iter().find(stands).or(premises.first()) {
+            return right(premise);
+        }
+        let (premise, says) = against?;
+        let own = Accepted { differs: &[], what: &says };
+        let wrong = stability::judge(self.criterion.points, &[own], None, *word);
+        let next = self.resting_on(premise, wrong);
+        if premise.own != OWN_POLES {
+            return next;
+        }
+        let words =
+            format!("It contradicts {} too: by those it is {}.", premise.name(), stability_name(says));
+        let follow_through = next.and_then(|next| next.follow_through);
+        Some(Mark { code: "stability.contradicts_own", follow_through, ..said(self.base, &words) })
+    }
+
+    /// The first readable poles of the system, and how far they may be followed.
+    fn own_poles(
+        &self,
+        of: &SystemRef,
+        earned: Earned<'_>,
+        marks: &[Vec<Mark>],
+    ) -> Option<(Premise, OwnPoles)> {
+        let places = self.lab.questions.iter().zip(marks).enumerate().take(self.question + 1);
+        for (question, (asked, marks)) in places {
+            for (criterion, mark) in asked.criteria.iter().zip(marks) {
+                if !matches!(&criterion.check, Check::Poles { of: other, .. } if other == of) {
+                    continue;
+                }
+                let Field::Value(_, AnswerValue::Poles(typed)) = self.grader.field(&criterion.field) else {
+                    continue;
+                };
+                let Some(own) = OwnPoles::new(typed) else { continue };
+                let truth = Truth::Reference(self.grader.reference).poles(of);
+                let guard = match (&mark.follow_through, truth.first()) {
+                    // They follow a transfer function that may not be followed.
+                    (Some(followed), _) if followed.guard != Guard::Passed => followed.guard,
+                    (_, Some(right)) => guard::of_poles(&own.polynomial, right.denominator),
+                    (_, None) => Guard::Order,
+                };
+                let root = match &mark.follow_through {
+                    Some(followed) if followed.guard != Guard::Passed => Some(followed.root.clone()),
+                    _ => root_of(criterion, mark, earned),
+                };
+                return Some((self.premise(OWN_POLES, question, &criterion.field, root, guard), own));
+            }
+        }
+        None
+    }
+}
+
+const OWN_FUNCTION: &str = "your own transfer function";
+const OWN_POLES: &str = "your own poles";
+
+/// An earlier answer on which later ones rest.
+struct Premise {
+    /// `your own transfer function`.
+    own: &'static str,
+    /// ` of Task 1, question 3`, or nothing.
+    whose: String,
+    /// Where it lost its points; `None` when it lost none.
+    root: Option<String>,
+    /// `Task 1, question 3`, when it is another answer that was charged.
+    charged_in: Option<String>,
+    guard: Guard,
+}
+
+impl Premise {
+    fn name(&self) -> String {
+        format!("{}{}", self.own, self.whose)
+    }
+
+    /// `that one is of the wrong order`.
+    fn why_refused(&self) -> &'static str {
+        match (self.guard, self.own == OWN_POLES) {
+            (Guard::Passed, _) => "it may be followed",
+            (Guard::Order, true) => "these are too few or of a function of the wrong order",
+            (Guard::Order, false) => "that one is of the wrong order",
+            (Guard::Trivial, true) => "these are too simple to show anything",
+            (Guard::Trivial, false) => "that one is too simple to show anything",
+            (Guard::OtherPoint, true) => "these belong to another operating point",
+            (Guard::OtherPoint, false) => "that one belongs to another operating point",
+        }
+    }
+}
+
+/// `mark` with more words to its reason.
+fn said(mark: &Mark, words: &str) -> Mark {
+    let reason = format!("{} {words}", mark.evidence.reason).trim().to_owned();
+    Mark { evidence: Evidence { reason, ..mark.evidence.clone() }, ..mark.clone() }
+}
+
+fn follows(check: &Check) -> &'static str {
+    match check {
+        Check::Poles { .. } => "poles.follows",
+        Check::Stability { .. } => "stability.follows",
+        Check::Shape { .. } => "shape.follows",
+        Check::Plot { .. } => "plot.follows",
+        _ => "value.follows",
+    }
+}
+
+/// A transfer function the student gave for a system.
+struct OwnFunction<'a> {
+    of: &'a SystemRef,
+    /// The place of its question in the lab.
+    question: usize,
+    field: &'a str,
+    typed: &'a TransferFunction,
+    root: Option<String>,
+    /// Whether it may be followed, and the ways to take it; worked out when it is needed, and once.
+    model: OnceCell<(Guard, Vec<OwnModel>)>,
+}
+
+/// The first readable transfer function of each system, in the order of the lab.
+fn own_functions<'a>(
+    lab: &'a LabDefinition,
+    grader: &'a Grader<'_>,
+    earned: Earned<'_>,
+    marks: &[Vec<Mark>],
+) -> Vec<OwnFunction<'a>> {
+    let mut found: Vec<OwnFunction<'a>> = Vec::new();
+    for (question, (asked, marks)) in lab.questions.iter().zip(marks).enumerate() {
+        for criterion in &asked.criteria {
+            let Some(of) = transfer_function_of(criterion) else { continue };
+            if found.iter().any(|known| known.of == of) {
+                continue;
+            }
+            let Field::Value(_, AnswerValue::TransferFunction { transfer_function: typed, .. }) =
+                grader.field(&criterion.field)
+            else {
+                continue;
+            };
+            let same =
+                |other: &Criterion| other.field == criterion.field && transfer_function_of(other) == Some(of);
+            let judged = asked.criteria.iter().zip(marks).filter(|(other, _)| same(other));
+            let root = judged.clone().find_map(|(other, mark)| root_of(other, mark, earned));
+            let field = criterion.field.as_str();
+            found.push(OwnFunction { of, question, field, typed, root, model: OnceCell::new() });
+        }
+    }
+    found
+}
+
+/// Where the points of this criterion were charged; `None` when none were.
+fn root_of(criterion: &Criterion, mark: &Mark, earned: Earned<'_>) -> Option<String> {
+    match &mark.follow_through {
+        Some(followed) if followed.credited => Some(followed.root.clone()),
+        _ => (earned(criterion, mark) < criterion.points).then(|| criterion.id.clone()),
+    }
+}
+
+/// The widest that is allowed a coefficient of the system's transfer function, relative.
+fn coefficient_tolerance(lab: &LabDefinition, of: &SystemRef) -> Rational {
+    let criteria = lab.questions.iter().flat_map(|question| &question.criteria);
+    criteria
+        .filter(|criterion| transfer_function_of(criterion) == Some(of))
+        .filter_map(|criterion| match &criterion.check {
+            Check::Numerator { tolerance, .. } | Check::Denominator { tolerance, .. } => {
+                Some(tolerance.relative.clone())
+            }
+            _ => None,
+        })
+        .max()
+        .unwrap_or(Rational::ZERO)
 }

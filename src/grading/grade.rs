@@ -1,13 +1,14 @@
-use super::accepted::{accepted, operating_point, transfer_function_of};
+use super::accepted::{Accepted, accepted, transfer_function_of};
+use super::follow_through::follow;
 use super::mark::{Mark, beginning};
 use super::plot::{Demands, Target};
+use super::truth::Truth;
 use super::{
-    Catalogue, HandMarks, ItemScore, Ledger, QuestionScore, Scorecard, Tally, Verdict, concepts, cover,
-    nonlinearity, plot, poles, shape, stability, transfer_function, value,
+    Catalogue, HandMarks, ItemScore, Ledger, Override, QuestionScore, Scorecard, Tally, Verdict, concepts,
+    cover, nonlinearity, plot, poles, shape, stability, transfer_function, value,
 };
-use crate::lab::{Check, Criterion, Curve, LabDefinition, Question, SystemRef};
-use crate::lti::InputKind;
-use crate::reference::{LinearReference, Reference, ResponseReference};
+use crate::lab::{Check, Criterion, Curve, LabDefinition, Points, Question, SystemRef};
+use crate::reference::{Reference, ResponseReference};
 use crate::submission::{Answer, AnswerValue, Figure, Series, Submission, Unreadable};
 
 /// Every mark of one submission, with its evidence, and with `catalogue` what may explain a wrong transfer function.
@@ -22,7 +23,11 @@ pub fn grade(
     hand: Option<&HandMarks>,
 ) -> Scorecard {
     let grader = Grader { reference, catalogue, submission };
-    scorecard(lab, submission, hand, |question| grader.question(question))
+    let mut marks: Vec<Vec<Mark>> = lab.questions.iter().map(|asked| grader.question(asked)).collect();
+    let earned =
+        |criterion: &Criterion, mark: &Mark| given(criterion, hand).map_or(mark.earned, |given| given.points);
+    follow(lab, &grader, &earned, &mut marks);
+    scorecard(lab, submission, hand, marks)
 }
 
 /// Every criterion left to a person, for `reason`; what `hand` already gives counts.
@@ -33,7 +38,8 @@ pub fn leave_to_a_person(
     reason: &str,
 ) -> Scorecard {
     let unmarked = |_: &Criterion| Mark::unmarked(String::new(), String::new(), reason);
-    scorecard(lab, submission, hand, |question| question.criteria.iter().map(unmarked).collect())
+    let marks = lab.questions.iter().map(|asked| asked.criteria.iter().map(unmarked).collect()).collect();
+    scorecard(lab, submission, hand, marks)
 }
 
 /// Adds up the marks of each question's criteria, a person's marks in place of ours.
@@ -41,18 +47,23 @@ fn scorecard(
     lab: &LabDefinition,
     submission: &Submission,
     hand: Option<&HandMarks>,
-    marks: impl Fn(&Question) -> Vec<Mark>,
+    marks: Vec<Vec<Mark>>,
 ) -> Scorecard {
+    let mut ledger = Ledger::default();
     let questions: Vec<QuestionScore> = lab
         .questions
         .iter()
-        .map(|question| {
-            let marks = marks(question);
+        .zip(marks)
+        .map(|(question, marks)| {
             let items: Vec<ItemScore> = question
                 .criteria
                 .iter()
                 .zip(marks)
-                .map(|(criterion, mark)| item_score(criterion, mark, submission, hand))
+                .map(|(criterion, mark)| {
+                    let item = item_score(criterion, mark.clone(), submission, hand);
+                    ledger.enter(&item, &mark);
+                    item
+                })
                 .collect();
             QuestionScore { id: question.id.clone(), tally: Tally::of(&items), items }
         })
@@ -64,14 +75,7 @@ fn scorecard(
     let observed = cover::observed(&lab.observed, hand);
     let parts = cover::Parts::new(total, unmarked, &lab.observed, &observed);
     let boxes = cover::boxes(&lab.cover, &parts, hand);
-    Scorecard {
-        questions,
-        total,
-        observed,
-        cover_total: cover::total(&boxes),
-        cover: boxes,
-        ledger: Ledger::default(),
-    }
+    Scorecard { questions, total, observed, cover_total: cover::total(&boxes), cover: boxes, ledger }
 }
 
 fn item_score(
@@ -80,11 +84,9 @@ fn item_score(
     submission: &Submission,
     hand: Option<&HandMarks>,
 ) -> ItemScore {
-    let given = hand
-        .and_then(|hand| hand.items.get(&criterion.id))
-        .filter(|given| (crate::lab::Points::ZERO..=criterion.points).contains(&given.points));
+    let given = given(criterion, hand);
     let mark = match given {
-        Some(given) => given.apply(criterion.points, mark),
+        Some(given) => Mark { follow_through: None, ..given.apply(criterion.points, mark) },
         None => mark,
     };
     ItemScore {
@@ -104,6 +106,12 @@ fn item_score(
     }
 }
 
+/// What a person gave in place of our mark.
+fn given<'a>(criterion: &Criterion, hand: Option<&'a HandMarks>) -> Option<&'a Override> {
+    let given = hand?.items.get(&criterion.id)?;
+    (Points::ZERO..=criterion.points).contains(&given.points).then_some(given)
+}
+
 /// Where the answer stands: for a plot, its data before its figure.
 fn position(criterion: &Criterion, submission: &Submission) -> Option<crate::source::Position> {
     let data = match &criterion.check {
@@ -114,21 +122,22 @@ fn position(criterion: &Criterion, submission: &Submission) -> Option<crate::sou
     Some(submission.source.position(answer.span.start))
 }
 
-struct Grader<'a> {
-    reference: &'a Reference,
+/// Judges the answers of one submission.
+pub(super) struct Grader<'a> {
+    pub reference: &'a Reference,
     catalogue: &'a Catalogue,
     submission: &'a Submission,
 }
 
 /// What stands in a field.
-enum Field<'a> {
+pub(super) enum Field<'a> {
     Blank,
     Unreadable(&'a Answer, &'a Unreadable),
     Value(&'a Answer, &'a AnswerValue),
 }
 
 impl<'a> Grader<'a> {
-    fn field(&self, path: &str) -> Field<'a> {
+    pub fn field(&self, path: &str) -> Field<'a> {
         match self.submission.answers.get(path) {
             None => Field::Blank,
             Some(answer) => match &answer.value {
@@ -146,7 +155,7 @@ impl<'a> Grader<'a> {
                 continue;
             }
             match transfer_function_of(criterion) {
-                None => marks[index] = Some(self.criterion(criterion)),
+                None => marks[index] = Some(self.criterion(criterion, Truth::Reference(self.reference))),
                 Some(of) => {
                     // Criteria on one transfer function are judged together: they share one reading of it.
                     let same: Vec<usize> = (index..question.criteria.len())
@@ -199,7 +208,8 @@ impl<'a> Grader<'a> {
         }
     }
 
-    fn criterion(&self, criterion: &Criterion) -> Mark {
+    /// The mark of a criterion on anything but a transfer function, by `truth`.
+    pub fn criterion(&self, criterion: &Criterion, truth: Truth<'_>) -> Mark {
         let points = criterion.points;
         let value = match self.field(&criterion.field) {
             Field::Value(_, value) => Some(value),
@@ -210,32 +220,27 @@ impl<'a> Grader<'a> {
                 self.without_value(criterion, String::new())
             }
             Check::Poles { of, tolerance, coefficients } => {
-                let accepted = poles::accepted_poles(self.reference, of);
+                let accepted = truth.poles(of);
                 let nearness = poles::Nearness { parts: tolerance, coefficients };
                 match value {
                     Some(AnswerValue::Poles(typed)) => {
-                        let internal = operating_point(self.reference, of)
-                            .and_then(|point| point.accepted.first())
-                            .map_or(&[][..], |one| one.internal_poles.as_slice());
-                        poles::judge(points, &accepted, internal, &nearness, typed)
+                        poles::judge(points, &accepted, truth.internal_poles(of), &nearness, typed)
                     }
                     _ => self.without_value(criterion, poles::expected(&accepted, &nearness)),
                 }
             }
             Check::Stability { of } => {
-                let accepted = accepted(self.reference, of, |one| &one.stability);
+                let accepted = truth.stability(of);
                 match value {
                     Some(AnswerValue::Stability(typed)) => {
-                        let whole = operating_point(self.reference, of)
-                            .and_then(|point| point.accepted.first())
-                            .map(|one| one.internal_stability);
-                        stability::judge(points, &accepted, whole, *typed)
+                        stability::judge(points, &accepted, truth.internal_stability(of), *typed)
                     }
                     _ => self.without_value(criterion, stability::expected(&accepted)),
                 }
             }
             Check::Feature { of, response, feature, tolerance } => {
-                let accepted = accepted(self.reference, of, |one| &response_of(one, *response).features);
+                let accepted: Vec<_> =
+                    truth.responses(of, *response).iter().map(|one| one.pick(|it| &it.features)).collect();
                 match value {
                     Some(AnswerValue::Value(typed)) => {
                         value::judge(points, &accepted, *feature, tolerance, typed)
@@ -244,8 +249,11 @@ impl<'a> Grader<'a> {
                 }
             }
             Check::Shape { of, response } => {
-                let accepted =
-                    accepted(self.reference, of, |one| &response_of(one, *response).features.shape);
+                let accepted: Vec<_> = truth
+                    .responses(of, *response)
+                    .iter()
+                    .map(|one| one.pick(|it| &it.features.shape))
+                    .collect();
                 match value {
                     Some(AnswerValue::Shape(typed)) => shape::judge(points, &accepted, *typed),
                     _ => self.without_value(criterion, shape::expected(&accepted)),
@@ -262,13 +270,21 @@ impl<'a> Grader<'a> {
                 _ => self.without_value(criterion, concepts::expected(wanted, *needed)),
             },
             Check::Plot { data, curve, tolerance, min_points, span_s } => {
-                let demands = Demands { tolerance, min_points: *min_points, span_s: *span_s };
-                self.plot(criterion, data.as_deref(), curve, &demands)
+                let span_s = truth.span_s(curve, *span_s);
+                let demands = Demands { tolerance, min_points: *min_points, span_s };
+                self.plot(criterion, data.as_deref(), curve, &demands, truth)
             }
         }
     }
 
-    fn plot(&self, criterion: &Criterion, data: Option<&str>, curve: &Curve, demands: &Demands<'_>) -> Mark {
+    fn plot(
+        &self,
+        criterion: &Criterion,
+        data: Option<&str>,
+        curve: &Curve,
+        demands: &Demands<'_>,
+        truth: Truth<'_>,
+    ) -> Mark {
         let expected = plot::expected(demands);
         if !self.submission.readable {
             return unreadable_file(expected, self.submission);
@@ -283,7 +299,7 @@ impl<'a> Grader<'a> {
             _ => None,
         };
         if series.is_some() {
-            return plot::judge(criterion.points, &self.targets(curve), demands, series, figure);
+            return plot::judge(criterion.points, &self.targets(curve, truth), demands, series, figure);
         }
         match (figure, data_field) {
             // Data that cannot be read is a finding; the figure beside it still counts as a figure alone.
@@ -297,21 +313,22 @@ impl<'a> Grader<'a> {
         }
     }
 
-    fn targets(&self, curve: &Curve) -> Vec<Target<'a>> {
+    fn targets<'t>(&self, curve: &Curve, truth: Truth<'t>) -> Vec<Target<'t>>
+    where
+        'a: 't,
+    {
+        let target = |one: Accepted<'t, ResponseReference>| {
+            let known = one.what;
+            Target {
+                with: one.with(),
+                at: Box::new(move |t| known.response.at(t)),
+                samples: &known.samples,
+                until_s: f64::INFINITY,
+            }
+        };
         match curve {
             Curve::Response { of, response } => {
-                accepted(self.reference, of, |one| response_of(one, *response))
-                    .into_iter()
-                    .map(|one| {
-                        let known = one.what;
-                        Target {
-                            with: one.with(),
-                            at: Box::new(move |t| known.response.at(t)),
-                            samples: &known.samples,
-                            until_s: f64::INFINITY,
-                        }
-                    })
-                    .collect()
+                truth.responses(of, *response).into_iter().map(target).collect()
             }
             Curve::Simulation { id } => self
                 .reference
@@ -326,13 +343,6 @@ impl<'a> Grader<'a> {
                 })
                 .collect(),
         }
-    }
-}
-
-fn response_of(linear: &LinearReference, response: InputKind) -> &ResponseReference {
-    match response {
-        InputKind::Impulse => &linear.impulse,
-        InputKind::Step => &linear.step,
     }
 }
 
@@ -351,8 +361,7 @@ fn unreadable_file(expected: String, submission: &Submission) -> Mark {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::grading::Override;
-    use crate::lab::{self, CoverSource, Points};
+    use crate::lab::{self, CoverSource};
     use crate::submission::{NoFiles, read};
     use std::sync::OnceLock;
 

@@ -14,6 +14,10 @@ pub(super) struct Mark {
     pub diagnosis: Option<Diagnosis>,
     pub follow_through: Option<FollowThrough>,
     pub alike: Option<String>,
+    /// What it earns beyond the mark by the reference, for following from an earlier answer.
+    pub spared: Points,
+    /// What would be earned besides if the lab gave all the points for that.
+    pub withheld: Points,
 }
 
 impl Mark {
@@ -27,6 +31,8 @@ impl Mark {
             diagnosis: None,
             follow_through: None,
             alike: None,
+            spared: Points::ZERO,
+            withheld: Points::ZERO,
         }
     }
 

@@ -11,11 +11,14 @@ mod diagnosis;
 mod digits;
 mod follow_through;
 mod grade;
+mod guard;
 mod hand_marks;
 mod ledger;
 mod likeness;
 mod mark;
 mod nonlinearity;
+mod own;
+mod own_poles;
 mod phrase;
 mod plot;
 mod poles;
@@ -25,12 +28,14 @@ mod scorecard;
 mod shape;
 mod stability;
 mod transfer_function;
+mod truth;
 mod value;
 
 pub use catalogue::Catalogue;
 pub use diagnosis::{Diagnosis, EquationPlace, Explanation};
-pub use follow_through::{FollowThrough, Guard};
+pub use follow_through::FollowThrough;
 pub use grade::{grade, leave_to_a_person};
+pub use guard::Guard;
 pub use hand_marks::{HandMarks, HandMarksFile, Override};
 pub use ledger::{Cause, Ledger, Loss, Spared};
 pub use scorecard::*;
@@ -79,6 +84,7 @@ mod tests {
         let sources = [
             include_str!("concepts.rs"),
             include_str!("digits.rs"),
+            include_str!("follow_through.rs"),
             include_str!("hand_marks.rs"),
             include_str!("nonlinearity.rs"),
             include_str!("plot.rs"),

@@ -1,15 +1,10 @@
 use super::*;
 use crate::algebra::Rational;
 use crate::lab::{LabDefinition, ModelDefinition, OperatingPointDefinition, SimulationDefinition};
-use crate::lti::{
-    Features, InputKind, Response, ResponseError, RootError, TransferFunction, roots, stability,
-};
+use crate::lti::{InputKind, ResponseError, RootError, roots, stability};
 use crate::model::{ModelError, compare, linearize};
 use crate::nonlinear::{ChainError, Run, simulate, without_nonlinearities};
 use std::collections::BTreeMap;
-
-/// How far, as a part of the peak, a drawn polyline may stray from the true curve.
-const DRAWING_TOLERANCE: f64 = 1e-3;
 
 /// Why no reference could be computed: always the lab's fault, and always at a named place of it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -136,20 +131,9 @@ fn linear_reference(
         stability: stability(&g.den),
         internal_poles: roots(&characteristic).map_err(root_error)?,
         internal_stability: stability(&characteristic),
-        impulse: response_reference(g, InputKind::Impulse).map_err(response_error)?,
-        step: response_reference(g, InputKind::Step).map_err(response_error)?,
+        impulse: ResponseReference::of(g, InputKind::Impulse).map_err(response_error)?,
+        step: ResponseReference::of(g, InputKind::Step).map_err(response_error)?,
         linearization,
-    })
-}
-
-fn response_reference(g: &TransferFunction, kind: InputKind) -> Result<ResponseReference, ResponseError> {
-    let response = Response::new(g, kind)?;
-    let horizon_s = response.horizon_s();
-    Ok(ResponseReference {
-        features: Features::of(&response),
-        horizon_s,
-        samples: response.samples(horizon_s, DRAWING_TOLERANCE),
-        response,
     })
 }
 

@@ -3,6 +3,7 @@
 mod compute;
 mod expectation;
 mod json;
+mod response;
 mod second_route;
 mod text;
 mod types;
@@ -10,6 +11,7 @@ mod types;
 pub use compute::ReferenceError;
 pub use expectation::{Disagreement, check_expectations, values_at};
 pub use json::to_json;
+pub use response::ResponseReference;
 pub use second_route::{Agreement, second_route};
 pub use text::to_text;
 pub use types::*;

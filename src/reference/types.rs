@@ -1,5 +1,6 @@
+use super::ResponseReference;
 use crate::algebra::Rational;
-use crate::lti::{Features, Pole, Response, Stability};
+use crate::lti::{Pole, Stability};
 use crate::model::{ComparisonRun, Linearization};
 use crate::nonlinear::Run;
 
@@ -57,16 +58,6 @@ pub struct LinearReference {
     pub internal_stability: Stability,
     pub impulse: ResponseReference,
     pub step: ResponseReference,
-}
-
-#[derive(Clone, Debug)]
-pub struct ResponseReference {
-    pub response: Response,
-    pub features: Features,
-    /// Seconds shown.
-    pub horizon_s: f64,
-    /// (t, y) for drawing.
-    pub samples: Vec<(f64, f64)>,
 }
 
 /// A chain with its nonlinearities and with them taken out.

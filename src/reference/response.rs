@@ -1,0 +1,31 @@
+use crate::lti::{Features, InputKind, Response, ResponseError, TransferFunction};
+
+/// How far, as a part of the peak, a drawn polyline may stray from the true curve.
+const DRAWING_TOLERANCE: f64 = 1e-3;
+
+/// A response, what is said of it, and how it is drawn.
+#[derive(Clone, Debug)]
+pub struct ResponseReference {
+    pub response: Response,
+    pub features: Features,
+    /// Seconds shown.
+    pub horizon_s: f64,
+    /// (t, y) for drawing.
+    pub samples: Vec<(f64, f64)>,
+}
+
+impl ResponseReference {
+    /// What follows from the transfer function alone, so that it can be had for a student's as well as for the lab's.
+    ///
+    /// Errors: [`Response::new`].
+    pub fn of(g: &TransferFunction, kind: InputKind) -> Result<Self, ResponseError> {
+        let response = Response::new(g, kind)?;
+        let horizon_s = response.horizon_s();
+        Ok(Self {
+            features: Features::of(&response),
+            horizon_s,
+            samples: response.samples(horizon_s, DRAWING_TOLERANCE),
+            response,
+        })
+    }
+}
