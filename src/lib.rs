@@ -6,7 +6,7 @@
 //!   algebra                  exact rationals, polynomials, expressions
 //!     │           source     text with places in it: spans, findings, a YAML tree
 //!   lti   nonlinear  │       transfer functions, poles, responses · saturation, dead zone, backlash
-//!     └──┬──┘        │
+//!     └──┬──┘      prose     what English sentences say: phrases, denials, claims about a response
 //!     model          │       equations → equilibrium → linearization
 //!        │      submission   what was answered
 //!       lab ─────────┘       what is asked
@@ -28,6 +28,7 @@ pub mod algebra;
 pub mod lti;
 pub mod model;
 pub mod nonlinear;
+pub mod prose;
 pub mod source;
 pub mod submission;
 

@@ -1,9 +1,8 @@
 use super::mark::{Mark, share};
-use super::phrase::Phrase;
-use super::prose::{Token, sentences};
 use super::{Evidence, PhraseMatch, Stance, Verdict};
 use crate::algebra::Rational;
 use crate::lab::{Concept, Points};
+use crate::prose::{Phrase, Token, sentences};
 
 /// More words than these are not shown.
 const MOST_SHOWN: usize = 60;

@@ -5,7 +5,7 @@ use unicode_normalization::UnicodeNormalization;
 
 /// A word as it is compared: lower case, apostrophes plain, `n't` split off as `not`.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Token {
+pub struct Token {
     pub text: String,
     pub span: Span,
     /// What stands between this word and the one before it.
@@ -14,7 +14,7 @@ pub(super) struct Token {
 
 /// The strongest thing that stands before a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Gap {
+pub enum Gap {
     Space,
     /// `,`
     Comma,
@@ -38,7 +38,7 @@ const BARE_CONTRACTIONS: &[&str] = &[
 ];
 
 /// The sentences of Markdown `text`, formulas reduced to a single word each. Linear in the length of the text.
-pub(super) fn sentences(text: &str) -> Vec<Vec<Token>> {
+pub fn sentences(text: &str) -> Vec<Vec<Token>> {
     let mut sentences = vec![Vec::new()];
     for token in words(text) {
         if token.gap == Gap::Sentence && sentences.last().is_some_and(|last: &Vec<Token>| !last.is_empty()) {
@@ -53,7 +53,7 @@ pub(super) fn sentences(text: &str) -> Vec<Vec<Token>> {
 }
 
 /// The words of `text` in order.
-pub(super) fn words(text: &str) -> Vec<Token> {
+pub fn words(text: &str) -> Vec<Token> {
     let mut found = Vec::new();
     let mut gap = Gap::Sentence;
     let mut at = 0;

@@ -1,15 +1,17 @@
 //! Where prose says a phrase, and whether it says so or denies it.
 
-use super::prose::{Gap, Token, words};
+use super::words::{Gap, Token, words};
 use crate::source::Span;
 
-/// Words that may stand between two words of a phrase.
+/// Words that may stand between two words of a lab's phrase.
 const BETWEEN: usize = 3;
 
 /// A phrase of a lab: `does not respond`, `oscillat*`.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Phrase {
+pub struct Phrase {
     words: Vec<PhraseWord>,
+    /// How many others may stand between two of the words.
+    between: usize,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,8 +29,11 @@ impl PhraseWord {
 
 /// A phrase said in one sentence: from the first to the last of its words.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Said {
+pub struct Said {
     pub span: Span,
+    /// Places of the first and the last of its words in the sentence.
+    pub first: usize,
+    pub last: usize,
     pub denied: bool,
     /// Said of what this is set against: `unlike the stable position`.
     pub contrasted: bool,
@@ -48,14 +53,21 @@ impl Phrase {
                 last.stem = stem;
             }
         }
-        Self { words: all }
+        Self { words: all, between: BETWEEN }
     }
 
-    /// Every place where `sentence` says the phrase: its words in order, at most [`BETWEEN`] others and no punctuation between
+    /// With at most `between` other words between two of its own.
+    pub fn with_between(self, between: usize) -> Self {
+        Self { between, ..self }
+    }
+
+    /// Every place where `sentence` says the phrase: its words in order, a few others at most and no punctuation between
     /// two of them, as close together as they stand.
     pub fn said_in(&self, sentence: &[Token]) -> Vec<Said> {
         let mut all: Vec<Vec<usize>> = Vec::new();
-        for places in (0..sentence.len()).filter_map(|start| self.places(sentence, start)) {
+        let Some(begins) = self.words.first() else { return Vec::new() };
+        let starts = (0..sentence.len()).filter(|&start| begins.matches(&sentence[start]));
+        for places in starts.filter_map(|start| self.places(sentence, start)) {
             // Of two that end with the same word the later one is the closer.
             if all.last().is_some_and(|before| before.last() == places.last()) {
                 all.pop();
@@ -70,7 +82,7 @@ impl Phrase {
                 Stance::Denied => true,
                 Stance::Neither => return None,
             };
-            Some(Said { span, denied, contrasted: contrasted(sentence, first) })
+            Some(Said { span, first, last, denied, contrasted: contrasted(sentence, first) })
         };
         all.into_iter().filter_map(said).collect()
     }
@@ -89,7 +101,7 @@ impl Phrase {
                 }
                 Some(before) => {
                     for (from, _) in before {
-                        let end = (from + BETWEEN + 2).min(sentence.len());
+                        let end = (from + self.between + 2).min(sentence.len());
                         let near = sentence.iter().enumerate().take(end).skip(from + 1);
                         for (place, token) in near.take_while(|(_, token)| token.gap == Gap::Space) {
                             if word.matches(token) && here.iter().all(|(known, _)| *known != place) {
@@ -454,7 +466,7 @@ fn being_there(verb: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::prose::sentences;
+    use super::super::words::sentences;
     use super::*;
 
     #[track_caller]

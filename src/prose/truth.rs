@@ -1,0 +1,140 @@
+//! What becomes of a claim, given what is known of the response.
+
+use super::claims::{Claim, ClaimKind, Quantity};
+use super::number::ClaimedNumber;
+use crate::lti::{Features, Limit, Shape, Stability};
+
+impl Claim {
+    /// Whether the claim is true of a response with these features, of a system with this stability; `None` where the words
+    /// leave room (`stable` of what is marginally stable).
+    pub fn holds(&self, features: &Features, stability: Stability) -> Option<bool> {
+        match self.kind {
+            ClaimKind::Stable | ClaimKind::MarginallyStable | ClaimKind::Unstable => {
+                self.holds_for_stability(stability)
+            }
+            ClaimKind::Value(of, number) => self.stance(value(features, of, number)),
+            // A swing may hide under what decays or grows faster.
+            ClaimKind::Oscillates if features.period_s.is_some() && !swings(features.shape) => None,
+            _ => self.holds_for_shape(features.shape).or_else(|| self.holds_for_limit(features.final_value)),
+        }
+    }
+
+    /// The same, where the stability is all that is known.
+    pub fn holds_for_stability(&self, stability: Stability) -> Option<bool> {
+        use Stability::*;
+        let affirmed = match (self.kind, stability) {
+            (ClaimKind::Stable, AsymptoticallyStable) => Some(true),
+            (ClaimKind::Stable, Unstable) => Some(false),
+            // It is called stable by some, and so is not to be called `not stable` wrong.
+            (ClaimKind::Stable, MarginallyStable) => self.denied.then_some(false),
+            (ClaimKind::Unstable, Unstable) => Some(true),
+            (ClaimKind::Unstable, AsymptoticallyStable) => Some(false),
+            (ClaimKind::Unstable, MarginallyStable) => self.denied.then_some(false),
+            (ClaimKind::MarginallyStable, stability) => Some(stability == MarginallyStable),
+            (ClaimKind::DiesAway, AsymptoticallyStable) => Some(true),
+            (ClaimKind::DiesAway | ClaimKind::Value(Quantity::Final, _), Unstable) => Some(false),
+            (
+                ClaimKind::GrowsWithoutBound | ClaimKind::NeverEnds | ClaimKind::ConstantAmplitude,
+                AsymptoticallyStable,
+            ) => Some(false),
+            (ClaimKind::GrowsWithoutBound, Unstable) => Some(true),
+            _ => None,
+        };
+        self.stance(affirmed)
+    }
+
+    /// The same, where the general shape is all that is known.
+    pub fn holds_for_shape(&self, shape: Shape) -> Option<bool> {
+        use Shape::*;
+        let affirmed = match (self.kind, shape) {
+            (ClaimKind::Oscillates, shape) => Some(swings(shape)),
+            (ClaimKind::DiesAway, DecayingOscillation | ExponentialDecay) => Some(true),
+            (ClaimKind::DiesAway, SustainedOscillation | GrowingOscillation | ExponentialGrowth) => {
+                Some(false)
+            }
+            (ClaimKind::GrowsWithoutBound, GrowingOscillation | ExponentialGrowth | PolynomialGrowth) => {
+                Some(true)
+            }
+            (ClaimKind::GrowsWithoutBound, _) => Some(false),
+            (ClaimKind::NeverEnds, DecayingOscillation | ExponentialDecay) => Some(false),
+            (ClaimKind::NeverEnds, Constant) => None,
+            (ClaimKind::NeverEnds, _) => Some(true),
+            (ClaimKind::ConstantAmplitude, Constant) => None,
+            (ClaimKind::ConstantAmplitude, shape) => Some(shape == SustainedOscillation),
+            (ClaimKind::Stable, GrowingOscillation | ExponentialGrowth | SustainedOscillation) => Some(false),
+            (ClaimKind::Unstable, DecayingOscillation | ExponentialDecay) => Some(false),
+            (
+                ClaimKind::Value(Quantity::Final, _),
+                SustainedOscillation | GrowingOscillation | ExponentialGrowth | PolynomialGrowth,
+            ) => Some(false),
+            _ => None,
+        };
+        self.stance(affirmed)
+    }
+
+    /// The same, where only is known where it goes.
+    pub fn holds_for_limit(&self, limit: Limit) -> Option<bool> {
+        let affirmed = match (self.kind, limit) {
+            (ClaimKind::Value(Quantity::Final, number), Limit::Value(value)) => Some(number.near(value, 0.0)),
+            (ClaimKind::Value(Quantity::Final, _) | ClaimKind::DiesAway, limit) => {
+                Some(limit.value().is_some())
+            }
+            (ClaimKind::GrowsWithoutBound, limit) => {
+                Some(!matches!(limit, Limit::Value(_) | Limit::Oscillates))
+            }
+            (ClaimKind::NeverEnds, limit) => Some(limit.value().is_none()),
+            (ClaimKind::ConstantAmplitude, Limit::Oscillates) => None,
+            (ClaimKind::ConstantAmplitude, _) => Some(false),
+            (ClaimKind::Unstable, Limit::Value(_)) => Some(false),
+            (ClaimKind::Stable, limit) if limit.value().is_none() => Some(false),
+            _ => None,
+        };
+        self.stance(affirmed)
+    }
+
+    /// The same, where only the value it starts from is known.
+    pub fn holds_for_initial_value(&self, start: f64) -> Option<bool> {
+        match self.kind {
+            ClaimKind::Value(Quantity::Initial, number) => self.stance(Some(number.near(start, 0.0))),
+            _ => None,
+        }
+    }
+
+    fn stance(&self, affirmed: Option<bool>) -> Option<bool> {
+        affirmed.map(|holds| holds != self.denied)
+    }
+}
+
+fn swings(shape: Shape) -> bool {
+    matches!(shape, Shape::DecayingOscillation | Shape::SustainedOscillation | Shape::GrowingOscillation)
+}
+
+fn value(features: &Features, of: Quantity, number: ClaimedNumber) -> Option<bool> {
+    let scale = features.peak.map_or(0.0, |peak| peak.value.abs());
+    match of {
+        Quantity::Initial => Some(number.near(features.initial_value, scale)),
+        Quantity::Final => Some(features.final_value.value().is_some_and(|value| number.near(value, scale))),
+        Quantity::Peak => peak(features, number),
+        Quantity::PeriodS => match features.period_s {
+            Some(period) => Some(number.near(period, 0.0)),
+            None => (!swings(features.shape)).then_some(false),
+        },
+    }
+}
+
+/// Any extremum may be called a peak, and its sign may be left out; only the first few are known.
+fn peak(features: &Features, number: ClaimedNumber) -> Option<bool> {
+    let Some(largest) = features.peak else { return (!swings(features.shape)).then_some(false) };
+    let same = |value: f64| {
+        let bare = ClaimedNumber { value: number.value.abs(), ..number };
+        if number.value < 0.0 { number.near(value, 0.0) } else { bare.near(value.abs(), 0.0) }
+    };
+    if same(largest.value) || features.extrema.iter().any(|extremum| same(extremum.value)) {
+        return Some(true);
+    }
+    let negative = |value: f64| value < 0.0;
+    let smaller = number.value.abs() < largest.value.abs();
+    // One of the later swings, or one that goes the other way.
+    let later = smaller && (swings(features.shape) || negative(number.value) == negative(largest.value));
+    if later { None } else { Some(false) }
+}
