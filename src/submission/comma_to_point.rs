@@ -104,7 +104,7 @@ pub(super) fn settled<'t>(texts: impl IntoIterator<Item = &'t str>) -> bool {
 /// Whether commas between digits can only be decimal commas in a text that lists poles.
 ///
 /// True when something else separates the poles, in an entry of a list of its own, and when as separators they would
-/// leave `-0` or `05`; never when other commas separate poles.
+/// leave `-0` or `05`. Other commas may separate poles where each has a space after it and nothing else separates any.
 pub(super) fn only_decimal_in_poles(text: &str, entry: bool) -> bool {
     let numbers = numbers(text);
     let commas = numbers.iter().filter(|number| matches!(number.kind, Kind::Decimal | Kind::Thousands));
@@ -112,9 +112,7 @@ pub(super) fn only_decimal_in_poles(text: &str, entry: bool) -> bool {
         numbers.iter().any(|number| (number.start..number.end).contains(&at) && number.kind != Kind::Mixed)
     };
     let separates = |at: usize| !inside(at) && !in_name(text, at);
-    if text.match_indices(',').any(|(at, _)| separates(at)) {
-        return false;
-    }
+    let separators = || text.match_indices(',').map(|(at, _)| at).filter(|&at| separates(at));
     let body = text.trim();
     let separated = body.contains([';', '&', '\n']) || body.to_lowercase().contains(" and ");
     let certain = |number: &Number| {
@@ -126,7 +124,14 @@ pub(super) fn only_decimal_in_poles(text: &str, entry: bool) -> bool {
             || (fraction.len() > 1 && fraction.starts_with('0'))
             || (imaginary && in_sum.ends_with(|c: char| c.is_ascii_digit()))
     };
-    entry || separated || commas.into_iter().any(certain)
+    if separators().next().is_none() {
+        return entry || separated || commas.into_iter().any(certain);
+    }
+    let spaced = separators().all(|at| text[at + 1..].starts_with(char::is_whitespace));
+    spaced
+        && !separated
+        && numbers.iter().all(|number| number.kind != Kind::Point)
+        && commas.into_iter().any(certain)
 }
 
 /// A list of numbers as text, in which a decimal comma has likely cut a number in two.
@@ -313,7 +318,15 @@ mod tests {
             ("-1,5; -2,5", true, true),
             ("-1,5 and -2,5", true, true),
             ("p1,2 = -1,5; -3", true, true),
-            ("-0,143, -2,5", false, false),
+            ("-0,143, -2,5", true, true),
+            ("5,568, -5,607, -0,1428", true, true),
+            ("-1, 5,05", true, true),
+            ("5,568, -5,607", false, false),
+            ("1,2, 3,4", false, false),
+            ("0,5, -1,3", false, false),
+            ("-0,143,-2,5", false, false),
+            ("-0,143, -2.5", false, false),
+            ("1,2,3, -0,5", false, false),
             ("-0,143; -2, -3", false, false),
             ("1,2,3; 4", false, false),
             ("0.5,1; 2", false, false),

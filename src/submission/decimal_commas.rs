@@ -1,6 +1,7 @@
+use super::comma_to_point::only_decimal_in_poles;
 use super::decimal::is_minus;
 use super::problem::quote;
-use crate::source::{Finding, Node, Span};
+use crate::source::{Finding, Node, Span, Value};
 
 /// Numbers in a YAML list that a decimal comma has cut in two: `[-0,143, 2]` is −0, 143 and 2 to YAML.
 ///
@@ -44,6 +45,35 @@ pub(super) fn decimal_comma_between(items: &[Node], source: &str, poles: bool) -
     })
 }
 
+/// The poles of a YAML list that decimal commas have cut in two, put together again; `None` when in doubt.
+///
+/// `[5,568, -5,607, -0,1428]` is three: commas with a space after them separate, the others stand between two digits each,
+/// and one of these, as a separator, would leave `-0` or `05` behind. Nobody writes a list of whole numbers so.
+pub(super) fn rejoined_poles(items: &[Node], source: &str) -> Option<Vec<Node>> {
+    let mut whole: Vec<Node> = Vec::new();
+    for item in items {
+        plain(item, source)?;
+        let Some(last) = whole.last_mut() else {
+            whole.push(item.clone());
+            continue;
+        };
+        if tight(last, item, source) {
+            last.span.end = item.span.end;
+            last.value = Value::Scalar(source.get(last.span.start..last.span.end)?.to_owned());
+        } else {
+            let between = source.get(last.span.end..item.span.start)?.strip_prefix(',')?;
+            (!between.is_empty() && between.trim().is_empty()).then_some(())?;
+            whole.push(item.clone());
+        }
+    }
+    let together = source.get(items.first()?.span.start..items.last()?.span.end)?;
+    (whole.len() < items.len() && only_decimal_in_poles(&on_one_line(together), false)).then_some(whole)
+}
+
+fn on_one_line(text: &str) -> String {
+    text.replace(['\n', '\r'], " ")
+}
+
 /// The text of a scalar that stands in the file just as it is, without quotes.
 fn plain<'a>(node: &'a Node, source: &str) -> Option<&'a str> {
     node.as_scalar().filter(|text| source.get(node.span.start..node.span.end) == Some(*text))
@@ -83,6 +113,40 @@ mod tests {
                 assert!(help.contains(&format!("`{written}`")), "{list}: {help}");
             }
             _ => panic!("{list}: {found:?}"),
+        }
+    }
+
+    #[test]
+    fn poles_cut_in_two_are_put_together_only_when_nothing_else_can_be_meant() {
+        for (list, whole) in [
+            ("[5,568, -5,607, -0,1428]", Some("5,568 | -5,607 | -0,1428")),
+            ("[5,568,\n   -5,607,\n   -0,1428]", Some("5,568 | -5,607 | -0,1428")),
+            ("[-0,1429, -0,0195 ± 5,586j]", Some("-0,1429 | -0,0195 ± 5,586j")),
+            ("[-2 ± 5,59j]", Some("-2 ± 5,59j")),
+            ("[-0,143]", Some("-0,143")),
+            ("[-1, 5,05]", Some("-1 | 5,05")),
+            // May be four whole numbers, or thousands.
+            ("[5,568, -5,607]", None),
+            ("[1,2, 3,4]", None),
+            ("[0,5, -1,3]", None),
+            ("[-1,2]", None),
+            ("[0,143]", None),
+            // Commas that mean two things, or may.
+            ("[-0,1,-2,5]", None),
+            ("[-0,143,-2]", None),
+            ("[-0,143 , -2]", None),
+            ("[-0,143, -2.5]", None),
+            ("[-0,143, '2']", None),
+            ("[-0,143, {re: 1}]", None),
+            ("[-1, -2, -3]", None),
+            ("[-0, 143]", None),
+            ("[]", None),
+        ] {
+            let tree = parse(list).unwrap();
+            let found = rejoined_poles(tree.as_sequence().unwrap(), list);
+            let found =
+                found.map(|nodes| nodes.iter().filter_map(Node::as_scalar).collect::<Vec<_>>().join(" | "));
+            assert_eq!(found.as_deref(), whole, "{list}");
         }
     }
 

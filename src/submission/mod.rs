@@ -9,6 +9,7 @@ mod decimal;
 mod decimal_commas;
 mod figure;
 mod formula;
+mod half_said;
 mod people;
 mod poles;
 mod problem;

@@ -1,7 +1,8 @@
 use super::comma_to_point::{Pointed, commas_read, only_decimal_in_poles, settled};
-use super::decimal_commas::decimal_comma_between;
+use super::decimal_commas::{decimal_comma_between, rejoined_poles};
 use super::figure::parse_figure;
 use super::formula::read_transfer_function;
+use super::half_said;
 use super::poles::{MAX_POLES, ReadPole, parse_poles};
 use super::problem::{Problem, quote, sentence};
 use super::series::{parse_series, rows_as_text};
@@ -75,6 +76,7 @@ pub fn read(
             let text = std::mem::take(&mut submission.source.text);
             let mut reader = Reader::new(&text, sheet, attachments);
             reader.document(&tree, id, &mut submission);
+            half_said::complete(sheet, &mut reader.answers, &mut reader.findings.kept);
             submission.answers = reader.answers;
             submission.findings = reader.findings.finish();
             submission.readable = !tree_is_text(&tree);
@@ -364,7 +366,7 @@ impl<'a> Reader<'a> {
                 let read = word(node, &kind, shape_word, shapes_named);
                 read.map(AnswerValue::Shape).map_err(|finding| {
                     match node.as_scalar().and_then(half_a_shape) {
-                        Some(help) => Box::new(finding.with_help(help)),
+                        Some(half) => Box::new(finding.with_help(half.help())),
                         None => finding,
                     }
                 })
@@ -401,7 +403,11 @@ impl<'a> Reader<'a> {
             Value::Sequence(items) => (items.as_slice(), true),
             _ => (std::slice::from_ref(node), false),
         };
-        if let Some(finding) = decimal_comma_between(items, self.text, true) {
+        let rejoined = rejoined_poles(items, self.text);
+        let items = rejoined.as_deref().unwrap_or(items);
+        if rejoined.is_none()
+            && let Some(finding) = decimal_comma_between(items, self.text, true)
+        {
             return Err(Box::new(finding));
         }
         let settled = settled(items.iter().filter_map(Node::as_scalar));

@@ -31,7 +31,7 @@ fn sheet() -> AnswerSheet {
     let fields = fields.map(|(path, kind, required)| Field {
         path: path.to_owned(),
         kind,
-        question: path.to_owned(),
+        question: path.rsplit_once('.').map_or(path, |(question, _)| question).to_owned(),
         prompt: format!("Prompt of {path}"),
         about: path.starts_with("low").then(|| "low".to_owned()),
         response: path.starts_with("low.response").then_some(InputKind::Impulse),
@@ -170,24 +170,16 @@ fn an_unreadable_value_costs_only_its_own_field() {
             "num",
         ),
         ("low.response.poles", "[-1, -2+j3..1]", "poles.unreadable", "3..1", "`-2+3.1j`"),
-        ("low.response.poles", "[-0,143, -2 ± 3j]", "number.decimal_comma", "-0,143", "`-0.143`"),
+        ("low.response.poles", "[5,568, -5,607]", "number.decimal_comma", "5,568", "`5.568`"),
         ("low.response.poles", "{value: -1, times: x}", "poles.multiplicity", "x", "multiplicity: 2"),
         ("low.response.poles", "{re: -1, value: 2}", "poles.unreadable", "{re: -1, value: 2}", "{re: -2"),
         ("low.response.poles", "{re: x}", "poles.unreadable", "x", "{re: -2"),
         ("low.response.poles", "{val: -1}", "poles.unreadable", "val", "value"),
         ("low.response.poles", "[[-1, 2]]", "poles.unreadable", "[-1, 2]", "`-2+3.1j`"),
         ("low.response.poles", "-1,5", "number.decimal_comma", "1,5", "`-1.5`"),
-        ("low.response.poles", "'-0,143, -0,0195 ± 5,59j'", "number.decimal_comma", "0,143", "`-0.143`"),
+        ("low.response.poles", "'5,568, -5,607'", "number.decimal_comma", "5,568", "`5.568`"),
         ("low.response.poles", "['5,568', '-2']", "number.decimal_comma", "5,568", "`5.568` or `5568`"),
         ("low.response.initial_value", "1,000", "number.decimal_comma", "1,000", "`1.000` or `1000`"),
-        ("low.response.shape", "exponential", "shape.unreadable", "exponential", "grow or decay"),
-        (
-            "low.response.shape",
-            "an oscillation",
-            "shape.unreadable",
-            "an oscillation",
-            "`sustained oscillation`",
-        ),
         (
             "low.response.stability",
             "marginal / stable",
@@ -315,6 +307,14 @@ fn decimal_commas_are_read_and_said() {
             "-0.1429, -0.0195 + 5.586j, -0.0195 - 5.586j",
             "-0,1429",
         ),
+        ("low.response.poles", "[5,568, -5,607, -0,1428]", "5.568, -5.607, -0.1428", "5,568"),
+        ("low.response.poles", "[-0,143, -2 ± 3j]", "-0.143, -2 + 3j, -2 - 3j", "-0,143"),
+        (
+            "low.response.poles",
+            "\"-0,143, -0,0195 ± 5,59j\"",
+            "-0.143, -0.0195 + 5.59j, -0.0195 - 5.59j",
+            "-0,143",
+        ),
         ("low.response.poles", "[-2, \"-0,143\", \"5,568\"]", "-2, -0.143, 5.568", "-0,143"),
         ("low.response.poles", "[{value: \"-1,5\", multiplicity: 2}]", "-1.5, -1.5", "-1,5"),
         ("low.transfer_function", "-0,06s / (s^2 + 5,568)", "-0.06s / (s^2 + 5.568)", "-0,06"),
@@ -328,6 +328,40 @@ fn decimal_commas_are_read_and_said() {
         assert_eq!(submission.answers[path].read_as(), read_as, "{value}");
         assert_eq!(submission.answers[path].text, value.trim_matches('"'));
     }
+}
+
+#[test]
+fn half_a_shape_is_completed_by_what_stands_beside_it() {
+    use super::AnswerValue::Shape as Is;
+    use crate::lti::Shape::*;
+    for (answers, shape) in [
+        ("shape: exponential, stability: unstable", Some(ExponentialGrowth)),
+        ("shape: exponential, stability: stable", Some(ExponentialDecay)),
+        ("shape: exponential, final_value: unbounded", Some(ExponentialGrowth)),
+        ("shape: exponential, final_value: 0, stability: stable", Some(ExponentialDecay)),
+        ("shape: It oscillates., stability: stable", Some(DecayingOscillation)),
+        ("shape: oscillation, stability: unstable", Some(GrowingOscillation)),
+        // Nothing to go by, or two things that disagree.
+        ("shape: exponential", None),
+        ("shape: exponential, stability: marginally stable", None),
+        ("shape: exponential, final_value: 0, stability: unstable", None),
+        ("shape: exponential, stability: green", None),
+        ("shape: exponential oscillation, stability: stable", None),
+        ("shape: growth or decay, stability: stable", None),
+        ("shape: exponential, initial_value: 0", None),
+    ] {
+        let text = format!("lab: tank\nstudent: {{id: a}}\nanswers: {{low.response: {{{answers}}}}}");
+        let submission = submit(&text);
+        let answer = &submission.answers["low.response.shape"];
+        assert_eq!(answer.value.as_ref().ok(), shape.map(Is).as_ref(), "{answers}");
+        let about: Vec<_> = submission.findings.iter().filter(|f| f.code.starts_with("shape.")).collect();
+        let [finding] = about.as_slice() else { panic!("{answers}: {about:?}") };
+        let severity = if shape.is_some() { Severity::Warning } else { Severity::Error };
+        assert_eq!(finding.severity, severity, "{finding:?}");
+    }
+    let alone = submit("lab: tank\nstudent: {id: a}\nanswers: {low.response.shape: exponential}");
+    let help = alone.findings[0].help.as_deref();
+    assert_eq!(help, Some("Does it grow or decay? Write `exponential growth` or `exponential decay`."));
 }
 
 #[test]

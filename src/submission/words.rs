@@ -241,8 +241,29 @@ pub(super) fn shapes_named(text: &str) -> Vec<&'static str> {
     named(text, SEPARATORS, shape_of_part).into_iter().map(shape_name).collect()
 }
 
-/// Half a shape: what is missing in `exponential` and in `oscillation`.
-pub(super) fn half_a_shape(text: &str) -> Option<&'static str> {
+/// A shape of which one half is not said.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum HalfShape {
+    /// `exponential`
+    Exponential,
+    /// `oscillation`
+    Oscillation,
+}
+
+impl HalfShape {
+    /// What to ask, and how to write it.
+    pub fn help(self) -> &'static str {
+        match self {
+            Self::Exponential => "Does it grow or decay? Write `exponential growth` or `exponential decay`.",
+            Self::Oscillation => {
+                "Does it grow, decay or stay? Write `growing oscillation`, `decaying oscillation` or `sustained oscillation`."
+            }
+        }
+    }
+}
+
+/// `exponential` and `oscillation`, alone or beside words that say no more.
+pub(super) fn half_a_shape(text: &str) -> Option<HalfShape> {
     const FILLERS: &[&str] = &[
         "a",
         "an",
@@ -260,15 +281,11 @@ pub(super) fn half_a_shape(text: &str) -> Option<&'static str> {
     let words = Words::new(text)?;
     let mut words = words.iter().filter(|word| !FILLERS.contains(word));
     match (words.next()?, words.next()) {
-        ("exponential" | "exponentially" | "exponentials", None) => {
-            Some("Does it grow or decay? Write `exponential growth` or `exponential decay`.")
-        }
+        ("exponential" | "exponentially" | "exponentials", None) => Some(HalfShape::Exponential),
         (word, None)
             if ["oscillat", "sinusoid", "swing", "sine"].iter().any(|stem| word.starts_with(stem)) =>
         {
-            Some(
-                "Does it grow, decay or stay? Write `growing oscillation`, `decaying oscillation` or `sustained oscillation`.",
-            )
+            Some(HalfShape::Oscillation)
         }
         _ => None,
     }
@@ -928,14 +945,14 @@ mod tests {
     #[test]
     fn half_a_shape_is_asked_about() {
         for (text, half) in [
-            ("exponential", true),
-            ("An exponential curve.", true),
-            ("oscillates", true),
-            ("decaying", false),
-            ("exponential oscillation", false),
-            ("", false),
+            ("exponential", Some(HalfShape::Exponential)),
+            ("An exponential curve.", Some(HalfShape::Exponential)),
+            ("oscillates", Some(HalfShape::Oscillation)),
+            ("decaying", None),
+            ("exponential oscillation", None),
+            ("", None),
         ] {
-            assert_eq!(half_a_shape(text).is_some(), half, "{text}");
+            assert_eq!(half_a_shape(text), half, "{text}");
         }
     }
 
