@@ -55,6 +55,7 @@ fn followed(prose: &str, guard: Guard) -> (Submission, Scorecard) {
             (item.earned, item.verdict, item.code) = (item.possible, Verdict::Right, "stability.follows");
             spared.push(Spared { item: id.into(), points: item.possible, root });
         } else {
+            (item.earned, item.verdict) = (Points::ZERO, Verdict::Wrong);
             refused.push(id);
         }
     }
@@ -95,8 +96,8 @@ fn the_ledger_says_where_each_point_went_and_what_was_spared() {
             &format!("({} possible − {} earned)", card.total.possible, card.total.earned),
             "is charged there only. What rests on it kept 2 points:",
             "Stability</a>: 1 point, right for your own transfer function",
-            "right for your own transfer function</span>",
-            "The mistake is charged at <a href=\"#item-hanging.transfer_function.denominator\">Task 1, question 3: Denominator</a>.",
+            "right for your own transfer function, see <a href=\"#item-hanging.transfer_function.denominator\">Task 1, question 3: Denominator</a></span>",
+            "It was charged once: what follows from it kept 2 points in Task 1, question 4 (",
         ],
     );
     let lost: Points = card.ledger.lost.iter().map(|loss| loss.points).sum();
@@ -115,9 +116,13 @@ fn a_refused_follow_through_says_why() {
         let html = page(&submission, &card);
         check_has(
             &html,
-            &["your own transfer function cannot stand in here", words, "not made up for by following"],
+            &[
+                "your own transfer function not followed, see <a",
+                words,
+                "would follow from the mistake at <a",
+            ],
         );
-        assert_eq!(html.matches(words).count(), 3, "in the ledger, and at both criteria");
+        assert_eq!(html.matches("your own transfer function not followed").count(), 2, "at both criteria");
     }
 }
 
@@ -164,7 +169,7 @@ fn the_part_of_the_equation_is_marked() {
     let html = page(&submission, &card);
     assert_eq!(html.matches("<mrow class=\"here\">").count(), 2);
     assert_eq!(html.matches("<mtext>here</mtext></munder>").count(), 2);
-    check_has(&html, &["Equation 2. In the boxes: <code>m*l^2</code>, <code>m*g*l*sin(theta)</code>"]);
+    check_has(&html, &["Equation 2 as it is given; the boxes show the places."]);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The marks of one question, criterion by criterion, as views.
 
 use super::anchor::item_anchor;
-use super::ledger::guard_words;
+use super::ledger::kept_words;
 use super::marked_equation;
 use super::numbers::typeset;
 use super::places;
@@ -73,6 +73,8 @@ fn view(
         Some(AnswerValue::Prose(text)) => quotes(text, &item.evidence.phrases),
         _ => Vec::new(),
     };
+    // The reason says what the words were taken for; that is repeated only to tell quotations apart.
+    let labelled = quotes.iter().any(|q| (q.stance, &q.concept) != (quotes[0].stance, &quotes[0].concept));
     let mut view = ItemView {
         anchor: item_anchor(&item.id),
         title: item.title.clone(),
@@ -83,6 +85,7 @@ fn view(
         found: typeset(&cropped(&item.evidence.found)),
         reason_html: prose::sentences(&sanitize(&item.evidence.reason)),
         quotes,
+        labelled,
         follow: follow(lab, item, scorecard),
         provisional: item.provisional,
         override_reason: item.override_reason.as_deref().map(sanitize),
@@ -102,38 +105,15 @@ fn view(
 /// How the answer stands to an earlier one.
 fn follow(lab: &LabDefinition, item: &ItemScore, scorecard: &Scorecard) -> Option<FollowView> {
     let follow = item.follow_through.as_ref()?;
-    let root = places::find(lab, scorecard, &follow.root).map(|place| place.full());
     let own = &follow.own;
-    Some(match (follow.credited, follow.guard) {
-        (true, _) if item.code.ends_with(".same_mistake") => FollowView {
-            class: "credited",
-            badge: "the same mistake, charged once".to_owned(),
-            before: "It is charged at",
-            root,
-            after: ".".to_owned(),
-        },
-        (true, _) => FollowView {
-            class: "credited",
-            badge: format!("right for {own}"),
-            before: "The mistake is charged at",
-            root,
-            after: ".".to_owned(),
-        },
-        (false, Guard::Passed) => FollowView {
-            class: "refused",
-            badge: format!("not right for {own} either"),
-            before: "It was held against",
-            root,
-            after: " as well.".to_owned(),
-        },
-        (false, guard) => FollowView {
-            class: "refused",
-            badge: format!("{own} cannot stand in here"),
-            before: "This was not judged by",
-            root,
-            after: format!(": {}.", guard_words(guard)),
-        },
-    })
+    let (class, words) = match (follow.credited, follow.guard) {
+        (true, _) => ("credited", kept_words(item)),
+        // That it does not follow either stands in the reason.
+        (false, Guard::Passed) => return None,
+        (false, _) => ("refused", format!("{own} not followed")),
+    };
+    let root = places::find(lab, scorecard, &follow.root).map(|place| place.full());
+    Some(FollowView { class, words, root })
 }
 
 /// What may have gone wrong on the way to a transfer function.

@@ -97,20 +97,21 @@ fn why(lab: &LabDefinition, scorecard: &Scorecard, loss: &Loss, item: &ItemScore
         after,
     };
     match &loss.cause {
+        Cause::Here if item.provisional => alone(&format!("{}; to be confirmed", mistake_words(item))),
         Cause::Here => alone(mistake_words(item)),
         Cause::Blank => alone("left blank"),
         Cause::Unreadable => alone("cannot be read; see the finding"),
         Cause::Unmarked => alone("not given yet: a person has to mark it"),
         Cause::ByHand => alone("decided by a person"),
         Cause::Part { root } => {
-            about("follows from ", root, ": only a part of the points is given for that".to_owned())
+            about("follows from the mistake at ", root, ", which earns a part of the points".to_owned())
         }
         Cause::Refused { root, guard } => about(
-            "not made up for by following ",
+            "would follow from the mistake at ",
             root,
             match guard_words(*guard) {
                 "" => String::new(),
-                words => format!(": {words}"),
+                words => format!(", but {words}"),
             },
         ),
     }
@@ -127,12 +128,12 @@ fn mistake_words(item: &ItemScore) -> &'static str {
 }
 
 /// Why an earlier answer is not followed, as the end of a sentence; empty when it is.
-pub fn guard_words(guard: Guard) -> &'static str {
+fn guard_words(guard: Guard) -> &'static str {
     match guard {
         Guard::Passed => "",
-        Guard::Order => "that function is not of the order asked for",
-        Guard::Trivial => "that function is too simple for this to be shown on it",
-        Guard::OtherPoint => "that function belongs to another operating point",
+        Guard::Order => "that answer is not of the order asked for",
+        Guard::Trivial => "that answer is too simple to show anything",
+        Guard::OtherPoint => "that answer belongs to another operating point",
     }
 }
 

@@ -3,7 +3,6 @@
 use super::math;
 use crate::grading::EquationPlace;
 use crate::lab::LabDefinition;
-use crate::source::sanitize;
 use serde::Serialize;
 use std::ops::Range;
 
@@ -11,10 +10,8 @@ use std::ops::Range;
 #[derive(Serialize)]
 pub struct MarkedEquation {
     pub math_html: String,
-    /// `Equation 2. In the box:`
+    /// `Equation 2 as it is given; the box shows the place.`
     pub caption: String,
-    /// As typed in the lab: `m*g*l*sin(theta)`.
-    pub parts: Vec<String>,
 }
 
 /// The equations that `places` point into, each once, in the order of their first place.
@@ -44,16 +41,15 @@ fn marked(
         .collect();
     spans.sort_by_key(|span| (span.start, span.end));
     spans.dedup();
-    let parts: Vec<String> =
-        spans.iter().filter_map(|span| equation.text.get(span.clone())).map(sanitize).collect();
-    if parts.is_empty() {
-        return None;
-    }
-    let boxes = if parts.len() == 1 { "box" } else { "boxes" };
+    spans.retain(|span| equation.text.get(span.clone()).is_some_and(|part| !part.is_empty()));
+    let boxes = match spans.len() {
+        0 => return None,
+        1 => "box shows the place",
+        _ => "boxes show the places",
+    };
     let of_model = if lab.models.len() > 1 { format!(" of {}", definition.title) } else { String::new() };
     Some(MarkedEquation {
         math_html: math::marked_equation(equation, &spans),
-        caption: format!("Equation {}{of_model}. In the {boxes}:", index + 1),
-        parts,
+        caption: format!("Equation {}{of_model} as it is given; the {boxes}.", index + 1),
     })
 }

@@ -2,7 +2,6 @@
 //! put together from the scorecard; where there is nothing to say, nothing is said.
 
 use super::escape::escape;
-use super::ledger::kept_words;
 use super::numbers::counted;
 use super::places::{self, Place, question_link};
 use super::prose;
@@ -64,36 +63,42 @@ fn lesson(lab: &LabDefinition, scorecard: &Scorecard) -> Option<String> {
     let diagnosis = place.item.diagnosis.as_ref()?;
     let charged = charged(scorecard, &place);
     let mut words =
-        format!("Look again at {}. {}", link(&question_link(place.question)), explained_words(diagnosis));
+        format!("Look first at {}. {}", link(&question_link(place.question)), explained_words(diagnosis));
     if charged > Points::ZERO {
         words += &format!(" It cost {} there.", counted(charged, "point"));
     }
-    let kept: Vec<(Points, String)> = scorecard
-        .ledger
-        .spared
-        .iter()
-        .filter(|spared| in_question(&place, &spared.root))
-        .filter_map(|spared| {
-            let at = places::find(lab, scorecard, &spared.item)?;
-            Some((spared.points, format!("{} ({})", link(&at.full()), kept_words(at.item))))
-        })
-        .collect();
-    if !kept.is_empty() {
-        let points: Points = kept.iter().map(|(points, _)| *points).sum();
-        let where_kept: Vec<String> = kept.into_iter().map(|(_, words)| words).collect();
-        words += &format!(
-            " It was not charged again: {} stay with {}.",
-            counted(points, "point"),
-            listed(&where_kept)
-        )
-        .replace("1 point stay ", "1 point stays ");
-    }
+    words += &kept(lab, scorecard, &place);
     Some(words)
+}
+
+/// What rests on the mistake and was not charged again, by question.
+fn kept(lab: &LabDefinition, scorecard: &Scorecard, root: &Place<'_>) -> String {
+    let mut questions: Vec<(&str, Points, Vec<String>)> = Vec::new();
+    for spared in scorecard.ledger.spared.iter().filter(|spared| in_question(root, &spared.root)) {
+        let Some(at) = places::find(lab, scorecard, &spared.item) else { continue };
+        let title = link(&at.title());
+        match questions.iter_mut().find(|(number, ..)| *number == at.question.number) {
+            Some((_, points, titles)) => {
+                *points += spared.points;
+                titles.push(title);
+            }
+            None => questions.push((&at.question.number, spared.points, vec![title])),
+        }
+    }
+    if questions.is_empty() {
+        return String::new();
+    }
+    let parts = questions.into_iter().map(|(number, points, titles)| {
+        let mut name = String::new();
+        escape(&mut name, number);
+        format!("{} in {name} ({})", counted(points, "point"), titles.join(", "))
+    });
+    format!(" It was charged once: what follows from it kept {}.", listed(&parts.collect::<Vec<_>>()))
 }
 
 fn explained_words(diagnosis: &Diagnosis) -> String {
     match diagnosis.explanations.as_slice() {
-        [one] => prose::sentences(&sanitize(&one.words)),
+        [one] => format!("What explains it: {}", prose::sentences(&sanitize(&one.words))),
         several => {
             format!("{} mistakes lead to what you wrote alike; they are listed there.", several.len())
         }

@@ -146,12 +146,9 @@ pub struct BlankView {
 pub struct FollowView {
     pub class: &'static str,
     /// `right for your own transfer function`
-    pub badge: String,
-    /// `The mistake is charged at`
-    pub before: &'static str,
+    pub words: String,
+    /// Where that one lost its points.
     pub root: Option<LinkView>,
-    /// `, and only there.`
-    pub after: String,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -165,6 +162,8 @@ pub struct ItemView {
     pub found: String,
     pub reason_html: String,
     pub quotes: Vec<Quote>,
+    /// What each quotation was taken for is said beside it.
+    pub labelled: bool,
     pub follow: Option<FollowView>,
     pub provisional: bool,
     pub override_reason: Option<String>,
