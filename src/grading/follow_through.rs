@@ -122,16 +122,12 @@ impl Follower<'_> {
         root: Option<String>,
         guard: Guard,
     ) -> Premise {
-        let number = |question: &Question| match question.number.as_str() {
-            "" => format!("“{}”", question.title),
-            number => number.to_owned(),
-        };
         let asked = self.lab.questions.get(question).filter(|_| question != self.question);
-        let whose = asked.map_or_else(String::new, |asked| format!(" of {}", number(asked)));
+        let whose = asked.map_or_else(String::new, |asked| format!(" of {}", question_name(asked)));
         let charged_elsewhere = |root: &String| {
             let has =
                 |asked: &&Question| asked.criteria.iter().any(|one| one.id == *root && one.field != field);
-            self.lab.questions.iter().find(has).map(number)
+            self.lab.questions.iter().find(has).map(question_name)
         };
         let charged_in = root.as_ref().and_then(charged_elsewhere);
         Premise { own, whose, root, charged_in, guard }
@@ -292,7 +288,7 @@ impl Follower<'_> {
     }
 }
 
-const OWN_FUNCTION: &str = "your own transfer function";
+pub(super) const OWN_FUNCTION: &str = "your own transfer function";
 const OWN_POLES: &str = "your own poles";
 
 /// An earlier answer on which later ones rest.
@@ -386,7 +382,7 @@ fn own_functions<'a>(
 }
 
 /// Where the points of this criterion were charged; `None` when none were.
-fn root_of(criterion: &Criterion, mark: &Mark, earned: Earned<'_>) -> Option<String> {
+pub(super) fn root_of(criterion: &Criterion, mark: &Mark, earned: Earned<'_>) -> Option<String> {
     match &mark.follow_through {
         Some(followed) if followed.credited => Some(followed.root.clone()),
         _ => (earned(criterion, mark) < criterion.points).then(|| criterion.id.clone()),
@@ -406,4 +402,12 @@ fn coefficient_tolerance(lab: &LabDefinition, of: &SystemRef) -> Rational {
         })
         .max()
         .unwrap_or(Rational::ZERO)
+}
+
+/// `Task 1, question 3`; the title of a question without a number.
+pub(super) fn question_name(question: &Question) -> String {
+    match question.number.as_str() {
+        "" => format!("“{}”", question.title),
+        number => number.to_owned(),
+    }
 }

@@ -2,6 +2,7 @@ use super::accepted::{Accepted, accepted, transfer_function_of};
 use super::follow_through::follow;
 use super::mark::{Mark, beginning};
 use super::plot::{Demands, Target};
+use super::same_mistake::spare;
 use super::truth::Truth;
 use super::{
     Catalogue, HandMarks, ItemScore, Ledger, Override, QuestionScore, Scorecard, Tally, Verdict, concepts,
@@ -26,6 +27,7 @@ pub fn grade(
     let mut marks: Vec<Vec<Mark>> = lab.questions.iter().map(|asked| grader.question(asked)).collect();
     let earned =
         |criterion: &Criterion, mark: &Mark| given(criterion, hand).map_or(mark.earned, |given| given.points);
+    spare(lab, &earned, &mut marks);
     follow(lab, &grader, &earned, &mut marks);
     scorecard(lab, submission, hand, marks)
 }
@@ -249,11 +251,7 @@ impl<'a> Grader<'a> {
                 }
             }
             Check::Shape { of, response } => {
-                let accepted: Vec<_> = truth
-                    .responses(of, *response)
-                    .iter()
-                    .map(|one| one.pick(|it| &it.features.shape))
-                    .collect();
+                let accepted = truth.shapes(of, *response);
                 match value {
                     Some(AnswerValue::Shape(typed)) => shape::judge(points, &accepted, *typed),
                     _ => self.without_value(criterion, shape::expected(&accepted)),

@@ -21,6 +21,7 @@ mod own;
 mod own_poles;
 mod plot;
 mod poles;
+mod same_mistake;
 mod scale;
 mod scorecard;
 mod shape;
@@ -87,6 +88,7 @@ mod tests {
             include_str!("nonlinearity.rs"),
             include_str!("plot.rs"),
             include_str!("poles.rs"),
+            include_str!("same_mistake.rs"),
             include_str!("shape.rs"),
             include_str!("stability.rs"),
             include_str!("transfer_function.rs"),

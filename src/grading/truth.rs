@@ -2,8 +2,9 @@ use super::accepted::{Accepted, accepted, operating_point};
 use super::own::OwnModel;
 use super::poles::{ExpectedPoles, accepted_poles};
 use crate::lab::{Curve, SystemRef};
-use crate::lti::{InputKind, Pole, Stability};
+use crate::lti::{InputKind, Mode, Pole, Shape, Stability};
 use crate::reference::{LinearReference, Reference, ResponseReference};
+use std::f64::consts::TAU;
 
 /// What answers about a system are held against.
 #[derive(Clone, Copy, Debug)]
@@ -47,6 +48,17 @@ impl<'a> Truth<'a> {
         }
     }
 
+    /// The shapes of the responses, then what one sees of them as well for a while.
+    pub fn shapes(self, of: &SystemRef, kind: InputKind) -> Vec<Accepted<'a, Shape>> {
+        let responses = self.responses(of, kind);
+        let in_the_end = responses.iter().map(|one| one.pick(|known| &known.features.shape));
+        let at_first = responses
+            .iter()
+            .filter(|one| swings_at_first(one.what))
+            .map(|one| one.pick(|_| &Shape::GrowingOscillation));
+        in_the_end.chain(at_first).collect()
+    }
+
     /// How long a curve is asked for where `asked_s` is enough for the reference, s: no longer than an own model takes to show
     /// its own behaviour.
     pub fn span_s(self, curve: &Curve, asked_s: f64) -> f64 {
@@ -71,5 +83,52 @@ fn response_of(linear: &LinearReference, kind: InputKind) -> &ResponseReference 
     match kind {
         InputKind::Impulse => &linear.impulse,
         InputKind::Step => &linear.step,
+    }
+}
+
+/// So many periods of a growing oscillation are enough to see it.
+const SEEN_PERIODS: f64 = 5.0;
+
+/// Whether a response that runs away in the end is at first a growing oscillation: for five periods and more, a growing pair
+/// is larger than everything that grows without swinging.
+fn swings_at_first(known: &ResponseReference) -> bool {
+    if known.features.shape != Shape::ExponentialGrowth {
+        return false;
+    }
+    let growing = || known.response.modes().iter().filter(|mode| mode.re > 0.0);
+    let size = |mode: &Mode, t: f64| {
+        let amplitude = mode.coefficient_re.hypot(mode.coefficient_im);
+        let powers: f64 = (1..=mode.power).map(|k| t / k as f64).product();
+        amplitude * powers * (mode.re * t).min(600.0).exp()
+    };
+    growing().filter(|mode| mode.im > 0.0).any(|pair| {
+        let t = SEEN_PERIODS * TAU / pair.im;
+        let straight: f64 = growing().filter(|mode| mode.im == 0.0).map(|mode| size(mode, t)).sum();
+        2.0 * size(pair, t) > straight
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::algebra::{Polynomial, parse_decimal};
+    use crate::lti::TransferFunction;
+
+    #[test]
+    fn a_small_runaway_term_leaves_an_oscillation_to_be_seen() {
+        #[track_caller]
+        fn check(what: &str, num: &str, den: &str, swings: bool) {
+            let polynomial = |text: &str| {
+                Polynomial::new(text.split_whitespace().map(|c| parse_decimal(c).unwrap()).collect())
+            };
+            let g = TransferFunction::new(polynomial(num), polynomial(den)).unwrap();
+            let known = ResponseReference::of(&g, InputKind::Impulse).unwrap();
+            assert_eq!(swings_at_first(&known), swings, "{what}");
+        }
+        check("the pendulum, friction reversed", "-0.06 0", "0.0132 -0.0024 0.41202 -0.05886", true);
+        check("the pendulum upright", "0.06 0", "0.0132 0.0024 -0.41202 -0.05886", false);
+        check("it oscillates in the end as well", "1", "1 -0.2 4", false);
+        // e^t and e^0.1t cos t, as large at first: after five periods nothing is left to see.
+        check("it runs away at once", "2 -2.2 1.11", "1 -1.2 1.21 -1.01", false);
     }
 }
