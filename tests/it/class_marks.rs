@@ -37,12 +37,12 @@ fn marked(
         .collect()
 }
 
-/// Marks rest on the student's own earlier answers.
-const FOLLOW_THROUGH_IS_BUILT: bool = false;
+/// What prose describes rests on the student's own earlier answers.
+const PROSE_FOLLOWS: bool = false;
 
 fn agrees(item: &ItemScore, given: &Given) -> bool {
     item.earned == given.points
-        && (!FOLLOW_THROUGH_IS_BUILT || given.own.is_none_or(|own| stands(item, own)))
+        && given.own.is_none_or(|own| stands(item, own))
         && given.provisional.is_none_or(|provisional| item.provisional == provisional)
         && given.verdict.is_none_or(|verdict| item.verdict == verdict)
 }
@@ -53,6 +53,7 @@ fn stands(item: &ItemScore, own: Own) -> bool {
     match own {
         Own::Follows => credited == Some((true, Guard::Passed)) && !item.code.ends_with(".same_mistake"),
         Own::Charged => item.code.ends_with(".same_mistake"),
+        Own::Refused if item.code.starts_with("concepts.") && !PROSE_FOLLOWS => true,
         Own::Refused => credited.is_some_and(|(credited, guard)| !credited && guard != Guard::Passed),
         Own::Contradicts => item.code == "stability.contradicts_own",
         Own::Unsupported => item.code == "stability.unsupported",
