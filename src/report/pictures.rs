@@ -177,6 +177,8 @@ impl ResponsePicture {
         {
             first.caption = format!("{trouble} {}", first.caption).trim().to_owned();
         }
+        let alone = own.as_ref().and_then(|own| self.prepared.own_figure(own));
+        views.extend(alone.and_then(|figure| draw(&figure, &format!("{}-own", self.id)).ok()));
         views
     }
 }

@@ -1,4 +1,4 @@
-use super::frame::{data_series, frame, leaving_words};
+use super::frame::{data_series, frame, leaves_at, leaving_words};
 use crate::lti::{Features, InputKind, Limit, Response, Shape};
 use crate::reference::{OperatingPointReference, ResponseReference};
 use crate::report::figure::{Axis, Figure, Look, Series};
@@ -80,6 +80,35 @@ impl PreparedResponse {
     /// One figure a view, the student's curves over the reference.
     pub fn figures(&self, student: StudentCurves<'_>) -> Vec<Figure> {
         self.views.iter().map(|view| self.figure(view, student)).collect()
+    }
+
+    /// The response of the student's own transfer function by itself: what follows from it. `None` where it can be seen well
+    /// enough over the reference, or swings too often to be drawn lightly.
+    pub fn own_figure(&self, own: &Response) -> Option<Figure> {
+        const EARLY: f64 = 0.25;
+        const MOST_POINTS: usize = 400;
+        let view = self.views.first()?;
+        let reach = view.reference.iter().map(|p| p.1.abs()).fold(0.0, f64::max);
+        let seen = sampled(own, view, reach);
+        let left = leaves_at(&seen, frame(&view.reference, &[&seen]))?;
+        if left > EARLY * view.end_s {
+            return None;
+        }
+        let end_s = own.horizon_s();
+        let points = own.samples(end_s, 2.0 * TOLERANCE);
+        let finite = points.iter().all(|(t, y)| t.is_finite() && y.is_finite());
+        if !finite || points.len() > MOST_POINTS {
+            return None;
+        }
+        let range = frame(&points, &[]);
+        let x = Axis::new("time t", "s", 0.0, end_s);
+        let y = Axis::new(&self.output, &self.unit, range.0, range.1);
+        let mut figure = Figure::new("What follows from your transfer function".to_owned(), x, y);
+        figure.zero_lines = true;
+        figure.caption = feature_words(&Features::of(own), &self.unit);
+        figure.summary = format!("{}, of your own transfer function. {}", self.title, figure.caption);
+        figure.series.push(Series { name: "your transfer function".into(), look: Look::Student, points });
+        Some(figure)
     }
 
     fn figure(&self, view: &View, student: StudentCurves<'_>) -> Figure {
