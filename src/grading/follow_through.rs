@@ -4,11 +4,12 @@ use super::grade::{Field, Grader};
 use super::guard::{self, Guard};
 use super::mark::{Mark, share};
 use super::own::OwnModel;
+use super::own_claims::{self, Behaviour};
 use super::own_poles::OwnPoles;
 use super::truth::Truth;
 use super::{Evidence, Verdict, stability};
 use crate::algebra::Rational;
-use crate::lab::{Check, Criterion, Curve, LabDefinition, Points, Question, SystemRef};
+use crate::lab::{Check, Criterion, Curve, Described, LabDefinition, Points, Question, SystemRef};
 use crate::lti::TransferFunction;
 use crate::submission::{AnswerValue, stability_name};
 use std::cell::OnceCell;
@@ -65,7 +66,8 @@ fn of_system(check: &Check) -> Option<&SystemRef> {
         | Check::Stability { of }
         | Check::Feature { of, .. }
         | Check::Shape { of, .. }
-        | Check::Plot { curve: Curve::Response { of, .. }, .. } => Some(of),
+        | Check::Plot { curve: Curve::Response { of, .. }, .. }
+        | Check::Concepts { describes: Some(Described { of, .. }), .. } => Some(of),
         _ => None,
     }
 }
@@ -89,6 +91,10 @@ impl Follower<'_> {
             return None;
         }
         let (premise, ways) = self.own_function()?;
+        if let Check::Concepts { describes: Some(described), .. } = &self.criterion.check {
+            let own = self.claimed(described, &premise, ways.first()?)?;
+            return self.resting_on(&premise, own);
+        }
         let ways = match self.criterion.check {
             Check::Poles { .. } => ways,
             // To a response common factors make no difference.
@@ -99,6 +105,37 @@ impl Follower<'_> {
             .map(|way| self.grader.criterion(self.criterion, Truth::Own(way)))
             .reduce(|best, next| if next.earned > best.earned { next } else { best })?;
         self.resting_on(&premise, own)
+    }
+
+    /// The mark of prose by what it claims of the response.
+    fn claimed(&self, described: &Described, premise: &Premise, own: &OwnModel) -> Option<Mark> {
+        premise.root.as_ref()?;
+        let Field::Value(_, AnswerValue::Prose(prose)) = self.grader.field(&self.criterion.field) else {
+            return None;
+        };
+        let truth = Truth::Reference(self.grader.reference);
+        let (of, kind) = (&described.of, described.response);
+        let (responses, words) = (truth.responses(of, kind), truth.stability(of));
+        let known: Vec<Behaviour<'_>> = responses
+            .iter()
+            .zip(&words)
+            .map(|(response, word)| (&response.what.features, *word.what))
+            .collect();
+        let response = own.response(kind)?;
+        let other_points: Vec<&str> = self
+            .lab
+            .models
+            .iter()
+            .filter(|model| model.id == of.model)
+            .flat_map(|model| &model.operating_points)
+            .map(|point| point.id.as_str())
+            .filter(|id| *id != of.operating_point)
+            .collect();
+        let behaviour = (&response.features, own.stability);
+        let mark = own_claims::judge(self.criterion.points, prose, &other_points, &known, behaviour)?;
+        let found = self.base.evidence.found.clone();
+        let conflicts = self.base.evidence.conflicts.clone();
+        Some(Mark { evidence: Evidence { found, conflicts, ..mark.evidence }, ..mark })
     }
 
     fn own_function(&self) -> Option<(Premise, &[OwnModel])> {
@@ -335,6 +372,7 @@ fn follows(check: &Check) -> &'static str {
         Check::Stability { .. } => "stability.follows",
         Check::Shape { .. } => "shape.follows",
         Check::Plot { .. } => "plot.follows",
+        Check::Concepts { .. } => "concepts.follows",
         _ => "value.follows",
     }
 }

@@ -18,6 +18,7 @@ mod likeness;
 mod mark;
 mod nonlinearity;
 mod own;
+mod own_claims;
 mod own_poles;
 mod plot;
 mod poles;
