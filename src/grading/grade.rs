@@ -1,4 +1,5 @@
 use super::accepted::{Accepted, accepted, transfer_function_of};
+use super::claims::note_conflicts;
 use super::follow_through::follow;
 use super::mark::{Mark, beginning};
 use super::plot::{Demands, Target};
@@ -29,6 +30,7 @@ pub fn grade(
         |criterion: &Criterion, mark: &Mark| given(criterion, hand).map_or(mark.earned, |given| given.points);
     spare(lab, &earned, &mut marks);
     follow(lab, &grader, &earned, &mut marks);
+    note_conflicts(lab, &grader, &mut marks);
     scorecard(lab, submission, hand, marks)
 }
 
@@ -128,7 +130,7 @@ fn position(criterion: &Criterion, submission: &Submission) -> Option<crate::sou
 pub(super) struct Grader<'a> {
     pub reference: &'a Reference,
     catalogue: &'a Catalogue,
-    submission: &'a Submission,
+    pub submission: &'a Submission,
 }
 
 /// What stands in a field.

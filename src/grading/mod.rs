@@ -4,6 +4,7 @@
 
 mod accepted;
 mod catalogue;
+mod claims;
 mod closeness;
 mod concepts;
 mod cover;

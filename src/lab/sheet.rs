@@ -1,4 +1,4 @@
-use super::{Check, Criterion, Curve, Parameter, Question, QuestionField};
+use super::{Check, Criterion, Curve, Described, Parameter, Question, QuestionField};
 use crate::lti::InputKind;
 use crate::submission::{AnswerSheet, Field};
 
@@ -33,6 +33,7 @@ fn about(question: &Question, field: &QuestionField) -> Option<String> {
         | Check::Stability { of }
         | Check::Feature { of, .. }
         | Check::Shape { of, .. }
+        | Check::Concepts { describes: Some(Described { of, .. }), .. }
         | Check::Plot { curve: Curve::Response { of, .. }, .. } => {
             Some(format!("{}.{}", of.model, of.operating_point))
         }
@@ -47,6 +48,7 @@ fn response(question: &Question, path: &str) -> Option<InputKind> {
     judging(question, path).find_map(|criterion| match &criterion.check {
         Check::Feature { response, .. }
         | Check::Shape { response, .. }
+        | Check::Concepts { describes: Some(Described { response, .. }), .. }
         | Check::Plot { curve: Curve::Response { response, .. }, .. } => Some(*response),
         _ => None,
     })

@@ -199,8 +199,6 @@ const PARTS: &[&str] = &[
     "denominator",
     "time",
     "axis",
-    "cart",
-    "temperature",
     "coefficient",
     "coefficients",
     "constant",
@@ -254,6 +252,13 @@ pub(super) fn speaks_of_it(sentence: &[Token], said: &Said, remark: Remark) -> b
         return false;
     }
     let before = |most: usize| said.first.saturating_sub(most).max(start)..said.first;
+    let subject = || {
+        let begins = |place: &usize| {
+            sentence[*place].gap >= Gap::Comma
+                || matches!(word(*place), "as" | "that" | "which" | "since" | "when")
+        };
+        (start..=said.first).rev().find(begins).unwrap_or(start)..said.first
+    };
     match remark {
         Remark::System => {
             let purpose = before(2).any(|place| {
@@ -267,17 +272,15 @@ pub(super) fn speaks_of_it(sentence: &[Token], said: &Said, remark: Remark) -> b
         }
         Remark::Motion => {
             !(start..end).any(|place| BEGINNINGS.contains(&word(place)))
-                && !(start..said.first).any(|place| PARTS.contains(&word(place)))
+                && !subject().any(|place| PARTS.contains(&word(place)))
                 && !before(1).any(|place| {
                     matches!(word(place), "almost" | "nearly" | "practically" | "quasi" | "virtually")
                 })
         }
         Remark::Value => {
-            !(start..said.first).any(|place| PARTS.contains(&word(place)) || MEASURES.contains(&word(place)))
+            !subject().any(|place| PARTS.contains(&word(place)) || MEASURES.contains(&word(place)))
         }
-        Remark::Named => {
-            !(start..said.first).any(|place| PARTS.contains(&word(place)) && word(place) != "impulse")
-        }
+        Remark::Named => !subject().any(|place| PARTS.contains(&word(place)) && word(place) != "impulse"),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::claims::{Claim, ClaimKind, Quantity};
 use super::number::ClaimedNumber;
+use crate::algebra::significant;
 use crate::lti::{Features, Limit, Shape, Stability};
 
 impl Claim {
@@ -19,13 +20,38 @@ impl Claim {
         }
     }
 
+    /// What is so instead, as a clause that stands after `by your transfer function`: `it is a decaying oscillation`.
+    pub fn fact(&self, features: &Features, stability: Stability) -> String {
+        match self.kind {
+            ClaimKind::Stable | ClaimKind::MarginallyStable | ClaimKind::Unstable => {
+                format!("it is {}", stability.words())
+            }
+            ClaimKind::Value(Quantity::Initial, _) => {
+                format!("the initial value is {}", significant(features.initial_value, 4))
+            }
+            ClaimKind::Value(Quantity::Final, _) => match features.final_value {
+                Limit::Value(value) => format!("the final value is {}", significant(value, 4)),
+                other => format!("it {}", other.words()),
+            },
+            ClaimKind::Value(Quantity::Peak, _) => match features.peak {
+                Some(peak) => format!("the peak is {}", significant(peak.value, 4)),
+                None => "it has no peak".to_owned(),
+            },
+            ClaimKind::Value(Quantity::PeriodS, _) => match features.period_s {
+                Some(period) => format!("the period is {} s", significant(period, 4)),
+                None => "it does not oscillate".to_owned(),
+            },
+            _ => format!("the response is {}", features.shape.words()),
+        }
+    }
+
     /// The same, where the stability is all that is known.
     pub fn holds_for_stability(&self, stability: Stability) -> Option<bool> {
         use Stability::*;
         let affirmed = match (self.kind, stability) {
             (ClaimKind::Stable, AsymptoticallyStable) => Some(true),
             (ClaimKind::Stable, Unstable) => Some(false),
-            // It is called stable by some, and so is not to be called `not stable` wrong.
+            // Some call it stable.
             (ClaimKind::Stable, MarginallyStable) => self.denied.then_some(false),
             (ClaimKind::Unstable, Unstable) => Some(true),
             (ClaimKind::Unstable, AsymptoticallyStable) => Some(false),

@@ -10,6 +10,7 @@ mod decimal_commas;
 mod figure;
 mod formula;
 mod half_said;
+mod own_claims;
 mod people;
 mod poles;
 mod problem;
@@ -26,6 +27,7 @@ pub use answer::{
     Answer, AnswerValue, Decimal, Figure, FinalValue, Series, Student, Submission, TypedComplex, Unreadable,
 };
 pub use attachments::{AttachmentError, Attachments, Folder, MAX_ATTACHMENT_BYTES, NoFiles};
+pub use own_claims::{ContradictedClaim, contradicted_claims, described, elsewhere};
 pub use read::{MAX_PROSE_BYTES, read};
 pub use self_check::self_check;
 pub use sheet::{AnswerSheet, Field, FieldKind};

@@ -1,3 +1,4 @@
+use super::own_claims::contradicted_claims;
 use super::problem::quote;
 use super::shape_name;
 use super::{
@@ -5,7 +6,7 @@ use super::{
 };
 use crate::algebra::to_f64;
 use crate::lti::{InputKind, Response, Shape, Stability, TransferFunction, roots, stability};
-use crate::source::Finding;
+use crate::source::{Finding, Span};
 use std::collections::BTreeMap;
 
 /// What is missing, and where the file contradicts itself. Uses only the student's own answers.
@@ -31,7 +32,51 @@ pub fn self_check(submission: &Submission, sheet: &AnswerSheet) -> Vec<Finding> 
         }
     }
     findings.extend(systems.values().flat_map(System::contradictions));
+    findings.extend(sheet.fields.iter().flat_map(|field| prose_against_answers(field, submission, sheet)));
     findings
+}
+
+/// More contradictions than these in one text are one misunderstanding.
+const MOST_OF_PROSE: usize = 4;
+
+/// What a description in words claims, against the other answers about the same response.
+fn prose_against_answers(field: &Field, submission: &Submission, sheet: &AnswerSheet) -> Vec<Finding> {
+    let Some(answer) = submission.answers.get(&field.path) else { return Vec::new() };
+    let Ok(AnswerValue::Prose(prose)) = &answer.value else { return Vec::new() };
+    let line = |answer: &Answer| submission.source.position(answer.span.start).line;
+    let mut found = contradicted_claims(submission, sheet, &field.path);
+    found.truncate(MOST_OF_PROSE);
+    found
+        .iter()
+        .map(|contradicted| {
+            let claim = &contradicted.claim;
+            let words = prose.get(claim.span.start..claim.span.end).unwrap_or_default();
+            let other = contradicted.answer;
+            let message = format!(
+                "`{}` (line {}) and `{}` (line {}) do not agree: the text says “{}”, which we take as “{}”. {}",
+                other.path,
+                line(other),
+                field.path,
+                line(answer),
+                words.split_whitespace().collect::<Vec<_>>().join(" "),
+                claim.words(),
+                contradicted.says
+            );
+            Finding::warning("contradiction.prose", message)
+                .with_help("Look at both again.")
+                .at(words_in_file(answer, words, submission))
+        })
+        .collect()
+}
+
+/// Where `words` of an answer stand in the file, when they are there once as they are; the whole answer otherwise.
+fn words_in_file(answer: &Answer, words: &str, submission: &Submission) -> Span {
+    let text = submission.source.text.get(answer.span.start..answer.span.end).unwrap_or_default();
+    let mut places = text.match_indices(words).map(|(at, _)| answer.span.start + at);
+    match (places.next(), places.next()) {
+        (Some(start), None) if !words.is_empty() => Span { start, end: start + words.len() },
+        _ => answer.span,
+    }
 }
 
 /// Figure and data of one question are alternatives: with one given, the other is not missing.
@@ -355,7 +400,7 @@ fn close(a: &Decimal, b: &Decimal) -> bool {
 }
 
 /// What the poles say, taken as exact.
-fn stability_of(poles: &[TypedComplex]) -> Stability {
+pub(super) fn stability_of(poles: &[TypedComplex]) -> Stability {
     use crate::algebra::Rational;
     let on_axis = |pole: &&TypedComplex| pole.re.value == Rational::ZERO;
     let repeated = |pole: &TypedComplex| {

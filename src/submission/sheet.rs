@@ -38,7 +38,7 @@ pub struct Field {
     pub prompt: String,
     /// Fields with the same tag speak of the same system and can be held against each other (`cart.hanging`).
     pub about: Option<String>,
-    /// The response a value, shape or data field describes: what drives the system. `None` where it describes none.
+    /// The response a value, shape, data or prose field describes: what drives the system. `None` where it describes none.
     pub response: Option<InputKind>,
     /// Needed for full marks.
     pub required: bool,

@@ -3,6 +3,7 @@
 mod claims;
 mod class_marks;
 mod cli;
+mod conflicts;
 mod marking_examples;
 mod plots;
 mod readme;
