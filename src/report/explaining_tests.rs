@@ -97,7 +97,7 @@ fn the_ledger_says_where_each_point_went_and_what_was_spared() {
             "is charged there only. What rests on it kept 2 points:",
             "Stability</a>: 1 point, right for your own transfer function",
             "right for your own transfer function, see <a href=\"#item-hanging.transfer_function.denominator\">Task 1, question 3: Denominator</a></span>",
-            "It was charged once: what follows from it kept 2 points in Task 1, question 4 (",
+            "and was not charged again: 2 points were kept in Task 1, question 4 (",
         ],
     );
     let lost: Points = card.ledger.lost.iter().map(|loss| loss.points).sum();

@@ -128,7 +128,7 @@ fn mistake_words(item: &ItemScore) -> &'static str {
 }
 
 /// Why an earlier answer is not followed, as the end of a sentence; empty when it is.
-fn guard_words(guard: Guard) -> &'static str {
+pub fn guard_words(guard: Guard) -> &'static str {
     match guard {
         Guard::Passed => "",
         Guard::Order => "that answer is not of the order asked for",

@@ -2,12 +2,13 @@
 //! put together from the scorecard; where there is nothing to say, nothing is said.
 
 use super::escape::escape;
+use super::ledger::guard_words;
 use super::numbers::counted;
 use super::places::{self, Place, question_link};
 use super::prose;
 use super::view::LinkView;
-use crate::grading::{Cause, Diagnosis, Scorecard};
-use crate::lab::{LabDefinition, Points};
+use crate::grading::{Cause, Guard, ItemScore, Scorecard};
+use crate::lab::{LabDefinition, Points, Question};
 use crate::source::sanitize;
 
 /// Paragraphs as HTML.
@@ -34,75 +35,90 @@ fn total(scorecard: &Scorecard) -> Option<String> {
     Some(words)
 }
 
-/// The questions with all their points.
+/// The questions with all their points, or, when they are fewer, those without.
 fn complete(lab: &LabDefinition, scorecard: &Scorecard) -> Option<String> {
-    let scores = scorecard.questions.iter();
-    let full: Vec<&str> =
-        scores.filter(|q| q.tally.earned == q.tally.possible).map(|q| q.id.as_str()).collect();
-    let links: Vec<String> = lab
-        .questions
-        .iter()
-        .filter(|q| full.contains(&q.id.as_str()))
-        .map(|q| link(&question_link(q)))
-        .collect();
-    match links.len() {
-        0 => None,
-        n if n == lab.questions.len() => Some("Every question has all its points.".to_owned()),
-        _ => Some(format!("All points for {}.", listed(&links))),
+    let is_full = |id: &str| {
+        let score = scorecard.questions.iter().find(|q| q.id == id);
+        score.is_some_and(|q| q.tally.earned == q.tally.possible)
+    };
+    let (full, rest): (Vec<&Question>, Vec<&Question>) = lab.questions.iter().partition(|q| is_full(&q.id));
+    let links = |questions: &[&Question]| {
+        listed(&questions.iter().map(|q| link(&question_link(q))).collect::<Vec<_>>())
+    };
+    match (full.len(), rest.len()) {
+        (0, _) => None,
+        (_, 0) => Some("Every question has all its points.".to_owned()),
+        (full, missing) if missing < full => {
+            Some(format!("Every question has all its points but {}.", links(&rest)))
+        }
+        _ => Some(format!("All points for {}.", links(&full))),
     }
 }
 
-/// The mistake that weighs most among those that can be explained: where, what, and what it did not cost.
+/// The mistake that weighs most among those that can be explained or on which something rests: where, what, and what it did
+/// and did not cost elsewhere.
 fn lesson(lab: &LabDefinition, scorecard: &Scorecard) -> Option<String> {
+    let explained = |item: &ItemScore| item.diagnosis.as_ref().is_some_and(|d| !d.explanations.is_empty());
+    let is_root = |item: &ItemScore| scorecard.ledger.spared.iter().any(|spared| spared.root == item.id);
     let items = scorecard.questions.iter().flat_map(|q| &q.items);
-    let explained = items.filter(|i| i.diagnosis.as_ref().is_some_and(|d| !d.explanations.is_empty()));
-    let places = explained.filter_map(|item| places::find(lab, scorecard, &item.id));
+    let places = items
+        .filter(|item| explained(item) || is_root(item))
+        .filter_map(|item| places::find(lab, scorecard, &item.id));
     let (place, _) = places
         .map(|place| (place, weight(scorecard, &place)))
         .reduce(|most, next| if next.1 > most.1 { next } else { most })?;
-    let diagnosis = place.item.diagnosis.as_ref()?;
+    let diagnosis = place.score.items.iter().find(|item| explained(item)).and_then(|i| i.diagnosis.as_ref());
+    let words = match diagnosis.map(|d| d.explanations.as_slice()) {
+        Some([one]) => format!("What explains it: {}", prose::sentences(&sanitize(&one.words))),
+        Some([_, _, ..]) => {
+            "Several mistakes lead to what you wrote alike; they are listed there.".to_owned()
+        }
+        _ => prose::sentences(&sanitize(&place.item.evidence.reason)),
+    };
+    let mut words = format!("Look first at {}. {words}", link(&question_link(place.question)));
     let charged = charged(scorecard, &place);
-    let mut words =
-        format!("Look first at {}. {}", link(&question_link(place.question)), explained_words(diagnosis));
-    if charged > Points::ZERO {
-        words += &format!(" It cost {} there.", counted(charged, "point"));
+    let kept = kept(lab, scorecard, &place);
+    words += &match (charged > Points::ZERO, kept) {
+        (true, Some(kept)) => {
+            format!(" It cost {} there and was not charged again: {kept}", counted(charged, "point"))
+        }
+        (true, None) => format!(" It cost {} there.", counted(charged, "point")),
+        (false, Some(kept)) => format!(" It was charged once: {kept}"),
+        (false, None) => String::new(),
+    };
+    let refused = scorecard.ledger.lost.iter().filter_map(|loss| match &loss.cause {
+        Cause::Refused { root, guard } if in_question(&place, root) => Some((loss.points, *guard)),
+        _ => None,
+    });
+    let refused: Vec<(Points, Guard)> = refused.collect();
+    if let Some((_, guard)) = refused.first() {
+        let points = counted(refused.iter().map(|(points, _)| *points).sum::<Points>(), "point");
+        words += &format!(" With it went {points} of what rests on it, since {}.", guard_words(*guard));
     }
-    words += &kept(lab, scorecard, &place);
     Some(words)
 }
 
-/// What rests on the mistake and was not charged again, by question.
-fn kept(lab: &LabDefinition, scorecard: &Scorecard, root: &Place<'_>) -> String {
-    let mut questions: Vec<(&str, Points, Vec<String>)> = Vec::new();
+/// What rests on the mistake and was not charged again, by question; `None` when there is nothing.
+fn kept(lab: &LabDefinition, scorecard: &Scorecard, root: &Place<'_>) -> Option<String> {
+    let mut total = Points::ZERO;
+    let mut questions: Vec<(&str, Vec<String>)> = Vec::new();
     for spared in scorecard.ledger.spared.iter().filter(|spared| in_question(root, &spared.root)) {
         let Some(at) = places::find(lab, scorecard, &spared.item) else { continue };
+        total += spared.points;
         let title = link(&at.title());
-        match questions.iter_mut().find(|(number, ..)| *number == at.question.number) {
-            Some((_, points, titles)) => {
-                *points += spared.points;
-                titles.push(title);
-            }
-            None => questions.push((&at.question.number, spared.points, vec![title])),
+        match questions.iter_mut().find(|(number, _)| *number == at.question.number) {
+            Some((_, titles)) => titles.push(title),
+            None => questions.push((&at.question.number, vec![title])),
         }
     }
-    if questions.is_empty() {
-        return String::new();
-    }
-    let parts = questions.into_iter().map(|(number, points, titles)| {
+    let were = if total == Points(100) { "was" } else { "were" };
+    let parts = questions.iter().map(|(number, titles)| {
         let mut name = String::new();
         escape(&mut name, number);
-        format!("{} in {name} ({})", counted(points, "point"), titles.join(", "))
+        format!("{name} ({})", titles.join(", "))
     });
-    format!(" It was charged once: what follows from it kept {}.", listed(&parts.collect::<Vec<_>>()))
-}
-
-fn explained_words(diagnosis: &Diagnosis) -> String {
-    match diagnosis.explanations.as_slice() {
-        [one] => format!("What explains it: {}", prose::sentences(&sanitize(&one.words))),
-        several => {
-            format!("{} mistakes lead to what you wrote alike; they are listed there.", several.len())
-        }
-    }
+    let parts = parts.collect::<Vec<_>>();
+    (!parts.is_empty()).then(|| format!("{} {were} kept in {}.", counted(total, "point"), listed(&parts)))
 }
 
 /// What was lost where nothing, or nothing readable, was written.
@@ -110,19 +126,16 @@ fn unanswered(scorecard: &Scorecard) -> Option<String> {
     let lost: Points = scorecard.ledger.lost.iter().map(|loss| loss.points).sum();
     let blank = lost_to(scorecard, |cause| *cause == Cause::Blank);
     let unreadable = lost_to(scorecard, |cause| *cause == Cause::Unreadable);
-    let of = |points: Points| {
-        if points == lost {
-            format!("All {lost} lost points")
-        } else {
-            format!("{points} of the {lost} lost points")
-        }
+    let of = |points: Points| match points == lost {
+        true => format!("all {lost} lost points"),
+        false => format!("{points} of the {lost} lost points"),
     };
     let mut words = Vec::new();
     if blank > Points::ZERO {
-        words.push(format!("{} stand where nothing was written.", of(blank)));
+        words.push(format!("Left blank: {}.", of(blank)));
     }
     if unreadable > Points::ZERO {
-        words.push(format!("{} stand where what was written cannot be read.", of(unreadable)));
+        words.push(format!("Written, but not readable: {}.", of(unreadable)));
     }
     (!words.is_empty()).then(|| words.join(" "))
 }
