@@ -19,6 +19,7 @@ mod read_as;
 mod self_check;
 mod series;
 mod sheet;
+mod unit;
 mod value;
 mod words;
 mod wrapping;
@@ -31,6 +32,7 @@ pub use own_claims::{ContradictedClaim, contradicted_claims, described, elsewher
 pub use read::{MAX_PROSE_BYTES, read};
 pub use self_check::self_check;
 pub use sheet::{AnswerSheet, Field, FieldKind};
+pub use unit::{Unit, UnitRatio};
 pub use words::{
     NonlinearityKind, nonlinearity_name, nonlinearity_word, shape_name, shape_word, stability_name,
     stability_word,
