@@ -1,6 +1,6 @@
 use crate::algebra::{Rational, from_f64, significant, to_f64};
 use crate::lab::Tolerance;
-use crate::submission::Decimal;
+use crate::submission::{Decimal, UnitRatio};
 
 /// How near a typed number is to the expected one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,19 +41,6 @@ pub(super) fn accepted_interval(
     Some(Expected::computed(expected, error_bound)?.interval(tolerance))
 }
 
-/// `accepted from -0.8023 to -0.7865 (1 %), or the value correctly rounded to at least 2 figures`: both ends are accepted.
-///
-/// `unit` stands behind the interval; empty for none.
-pub(super) fn accepted_in_words(
-    expected: f64,
-    error_bound: f64,
-    tolerance: &Tolerance,
-    unit: &str,
-) -> String {
-    Expected::computed(expected, error_bound)
-        .map_or_else(|| in_words(tolerance), |expected| expected.accepted_in_words(tolerance, unit))
-}
-
 /// A number that is expected, and what it may itself be off by.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Expected {
@@ -68,6 +55,14 @@ impl Expected {
         Some(Self { value: from_f64(value)?, error_bound: magnitude(&from_f64(error_bound)?) })
     }
 
+    /// The same number in another unit, of which one of its own is `ratio`.
+    pub fn in_unit(&self, ratio: &UnitRatio) -> Self {
+        let (factor, bound) = ratio.value();
+        let error_bound =
+            &self.error_bound * magnitude(&factor) + magnitude(&self.value) * bound * Rational::from(2);
+        Self { value: &self.value * factor, error_bound }
+    }
+
     pub fn closeness(&self, typed: &Decimal, tolerance: &Tolerance) -> Closeness {
         let distance = magnitude(&(&typed.value - &self.value));
         if distance <= self.width(tolerance) + &self.error_bound {
@@ -77,7 +72,8 @@ impl Expected {
         if significant_figures(typed) < figures as usize {
             return Closeness::Off;
         }
-        let half_a_digit = power_of_ten(typed.last_place) / Rational::from(2);
+        let place = typed.last_place.saturating_add(places_left_open(typed, figures as usize));
+        let half_a_digit = power_of_ten(place) / Rational::from(2);
         if distance <= half_a_digit + &self.error_bound { Closeness::Rounded } else { Closeness::Off }
     }
 
@@ -96,7 +92,9 @@ impl Expected {
         &tolerance.relative * magnitude(&self.value)
     }
 
-    /// See [`accepted_in_words`].
+    /// `accepted from -0.8023 to -0.7865 (1 %), or the value correctly rounded to at least 2 figures`: both ends are accepted.
+    ///
+    /// `unit` stands behind the interval; empty for none.
     pub fn accepted_in_words(&self, tolerance: &Tolerance, unit: &str) -> String {
         let interval = self.interval_in_words(tolerance, unit);
         let range = match interval {
@@ -168,6 +166,17 @@ pub(super) fn significant_figures(typed: &Decimal) -> usize {
     }
     let digits = (&typed.value / power_of_ten(typed.last_place)).round();
     digits.to_string().trim_start_matches('-').len()
+}
+
+/// How many zeros at the end of a whole number may only tell its size, when `figures` are needed: 1 of `130` for two
+/// figures, and of `1300` for three; 0 of `1.30`.
+fn places_left_open(typed: &Decimal, figures: usize) -> i32 {
+    if typed.last_place != 0 || typed.text.contains(['.', 'e', 'E']) {
+        return 0;
+    }
+    let zeros = typed.text.len() - typed.text.trim_end_matches('0').len();
+    let spare = significant_figures(typed).saturating_sub(figures);
+    i32::try_from(zeros.min(spare)).unwrap_or(0)
 }
 
 fn power_of_ten(exponent: i32) -> Rational {
@@ -251,6 +260,12 @@ pub(super) mod tests {
             (0.25, "0.3", Off),
             (0.253, "0.25", Rounded),
             (0.2551, "0.25", Off),
+            // zeros at the end of a whole number may only tell its size, those behind the point are figures
+            (128.4, "130", Rounded),
+            (128.4, "120", Off),
+            (1284.0, "1300", Rounded),
+            (128.4, "130.0", Off),
+            (128.4, "100", Off),
             // trailing zeros are figures, leading ones are not
             (0.0495, "0.05", Within),
             (0.0485, "0.05", Off),
@@ -329,7 +344,7 @@ pub(super) mod tests {
             (1.0, &tolerance("1e-17", "0", None), "within 1e-17", None),
         ] {
             let bound = 1e-15 * f64::abs(expected);
-            assert_eq!(accepted_in_words(expected, bound, tolerance, ""), words, "{expected}");
+            assert_eq!(in_interval(expected, bound, tolerance, ""), words, "{expected}");
             let Some((below, above)) = beyond else { continue };
             let mut ends = words.split(' ').skip(2).step_by(2);
             let (low, high) = (ends.next().unwrap(), ends.next().unwrap());
@@ -341,11 +356,14 @@ pub(super) mod tests {
             assert_eq!(got(above), Closeness::Off, "{above} for {expected}");
         }
         assert_eq!(
-            accepted_in_words(2.0, 0.0, &tolerance("0", "0.01", None), "rad/s"),
+            in_interval(2.0, 0.0, &tolerance("0", "0.01", None), "rad/s"),
             "accepted from 1.98 to 2.02 rad/s (1 %)"
         );
-        assert_eq!(accepted_in_words(f64::NAN, 0.0, &near, ""), in_words(&near));
         assert_eq!(accepted_interval(f64::INFINITY, 0.0, &near), None);
+    }
+
+    fn in_interval(expected: f64, bound: f64, tolerance: &Tolerance, unit: &str) -> String {
+        Expected::computed(expected, bound).unwrap().accepted_in_words(tolerance, unit)
     }
 
     proptest! {
@@ -361,7 +379,7 @@ pub(super) mod tests {
             let expected = digits as f64 * 10f64.powi(place);
             let bound = f64::from(bound) * 1e-12 * expected.abs();
             let tolerance = tolerance(&format!("{absolute}e-4"), &format!("{relative}e-3"), None);
-            let words = accepted_in_words(expected, bound, &tolerance, "");
+            let words = in_interval(expected, bound, &tolerance, "");
             if let Some(rest) = words.strip_prefix("accepted from ") {
                 let mut ends = rest.split(' ').step_by(2);
                 for end in [ends.next().unwrap(), ends.next().unwrap()] {

@@ -247,9 +247,9 @@ impl<'a> Grader<'a> {
                     truth.responses(of, *response).iter().map(|one| one.pick(|it| &it.features)).collect();
                 match value {
                     Some(AnswerValue::Value(typed)) => {
-                        value::judge(points, &accepted, *feature, tolerance, typed)
+                        value::judge(points, &accepted, feature, tolerance, typed)
                     }
-                    _ => self.without_value(criterion, value::expected(&accepted, *feature, tolerance)),
+                    _ => self.without_value(criterion, value::expected(&accepted, feature, tolerance)),
                 }
             }
             Check::Shape { of, response } => {

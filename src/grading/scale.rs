@@ -37,6 +37,8 @@ pub(super) struct Coefficient {
 pub(super) struct Scaled {
     /// The student's scale: written ≈ `factor` · expected.
     pub factor: Rational,
+    /// The smallest and the largest size of a factor that all of these agree on; `None` when there are none.
+    pub range: Option<(Rational, Rational)>,
     /// How many coefficients agree on it.
     pub agreeing: usize,
     /// How many have its size to the last digit, whatever their sign: tells which of several references was meant.
@@ -51,6 +53,19 @@ pub(super) struct Scaled {
 impl Scaled {
     pub fn of(&self, part: Part) -> impl Iterator<Item = &Coefficient> {
         self.coefficients.iter().filter(move |coefficient| coefficient.part == part)
+    }
+
+    /// What `coefficient` might have been written as, smallest and largest, with all that is right left as it is.
+    ///
+    /// `None` where nothing sets the scale, or nothing was expected.
+    pub fn accepted(&self, coefficient: &Coefficient, tolerance: &Rational) -> Option<(Rational, Rational)> {
+        let (low, high) = self.range.as_ref().filter(|_| !coefficient.expected.is_zero())?;
+        let tolerance = widest(tolerance);
+        let size = magnitude(&coefficient.expected);
+        let near = &size * low * (Rational::ONE - &tolerance);
+        let far = size * high * (Rational::ONE + tolerance);
+        let positive = (&self.factor * &coefficient.expected) > Rational::ZERO;
+        Some(if positive { (near, far) } else { (-far, -near) })
     }
 
     pub fn is_right(&self, part: Part) -> bool {
@@ -119,7 +134,13 @@ pub(super) fn scalings(
     let needed = pairs.iter().filter(|pair| !pair.expected.is_zero()).count().div_ceil(2).max(2);
     let supported = most >= needed || only_denominator.is_some();
     best.into_iter()
-        .map(|(start, agree)| Scaled { needed, supported, ..scaled(&pairs, &intervals, start, &agree) })
+        .map(|(start, agree)| {
+            let found = scaled(&pairs, &intervals, start.clone(), &agree);
+            // What the denominator's only term sets is set to the last digit.
+            let exact = || (magnitude(&start), magnitude(&start));
+            let range = if only_denominator.is_some() { Some(exact()) } else { found.range.clone() };
+            Scaled { needed, supported, range, ..found }
+        })
         .collect()
 }
 
@@ -144,16 +165,19 @@ fn interval(pair: &Coefficient, tolerance: &Rational) -> Option<Interval> {
     if pair.fit != Fit::Right {
         return None;
     }
-    // A tolerance of 100 % or more would accept every factor, its sign included.
-    let widest = Rational::from(99) / Rational::from(100);
-    let tolerance = if *tolerance > widest { &widest } else { tolerance };
+    let tolerance = widest(tolerance);
     let ratio = &pair.written / &pair.expected;
     let size = magnitude(&ratio);
     Some(Interval {
-        low: &size / (Rational::ONE + tolerance),
+        low: &size / (Rational::ONE + &tolerance),
         high: size / (Rational::ONE - tolerance),
         ratio,
     })
+}
+
+/// A tolerance of 100 % or more would accept every factor, its sign included.
+fn widest(tolerance: &Rational) -> Rational {
+    tolerance.clone().min(Rational::from(99) / Rational::from(100))
 }
 
 /// The place of the part's only coefficient, when it is the only one expected and the only one written.
@@ -177,6 +201,8 @@ fn scaled(pairs: &[Coefficient], intervals: &[Option<Interval>], start: Rational
             (factor, most) = (one.ratio.clone(), count);
         }
     }
+    let low = agreeing.iter().map(|one| one.low.clone()).max();
+    let high = agreeing.iter().map(|one| one.high.clone()).min();
     let size = magnitude(&factor);
     let identical = intervals.iter().flatten().filter(|one| magnitude(&one.ratio) == size).count();
     let coefficients = pairs
@@ -196,7 +222,8 @@ fn scaled(pairs: &[Coefficient], intervals: &[Option<Interval>], start: Rational
             Coefficient { fit, ..pair.clone() }
         })
         .collect();
-    Scaled { factor, agreeing: agreeing.len(), identical, needed: 0, supported: false, coefficients }
+    let range = low.zip(high);
+    Scaled { factor, range, agreeing: agreeing.len(), identical, needed: 0, supported: false, coefficients }
 }
 
 #[cfg(test)]

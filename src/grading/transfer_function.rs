@@ -1,6 +1,6 @@
 use super::Evidence;
 use super::accepted::{Accepted, also};
-use super::closeness::{magnitude, percent};
+use super::closeness::{inward, magnitude, percent};
 use super::mark::{Mark, half, share};
 use super::scale::{Coefficient, Fit, Part, Scaled, scalings};
 use crate::algebra::{Polynomial, Rational, polynomial_text, significant, to_f64};
@@ -326,7 +326,12 @@ impl Reading<'_> {
         match coefficient.fit {
             Fit::Right => String::new(),
             Fit::Extra => format!("The {place} ({written}) should not be there."),
-            Fit::Missing => format!("The {place} is missing: it should be {expected}."),
+            Fit::Missing => {
+                format!(
+                    "The {place} is missing: it should be {expected}{}.",
+                    self.interval(coefficient, tolerance)
+                )
+            }
             Fit::Sign => {
                 let off = magnitude(&(&coefficient.written + &should)) > magnitude(&(&should * tolerance));
                 let digits = if off { ", and its digits are off" } else { "" };
@@ -335,11 +340,24 @@ impl Reading<'_> {
             Fit::Value => {
                 let by = (&coefficient.written - &should) / &should;
                 format!(
-                    "The {place} is {written} where {expected} was expected, off by {}.",
-                    percent(&magnitude(&by))
+                    "The {place} is {written} where {expected} was expected, off by {}{}.",
+                    percent(&magnitude(&by)),
+                    self.interval(coefficient, tolerance)
                 )
             }
         }
+    }
+}
+
+impl Reading<'_> {
+    /// `; accepted from -0.4158 to -0.4075 in your scale`, as long as the coefficients that are right stay as they are.
+    fn interval(&self, coefficient: &Coefficient, tolerance: &Rational) -> String {
+        let shown = self.scaled.accepted(coefficient, tolerance).and_then(|(low, high)| {
+            let width = (&high - &low) / Rational::from(2);
+            inward(&low, &high, &width)
+        });
+        let scale = if self.scaled.factor == Rational::ONE { "" } else { " in your scale" };
+        shown.map_or_else(String::new, |(low, high)| format!("; accepted from {low} to {high}{scale}"))
     }
 }
 
@@ -609,7 +627,7 @@ mod tests {
         assert_eq!(
             seed[2].evidence.reason,
             "One coefficient has a slip; the others are right. The coefficient of s is -0.4166 where -0.4116 was \
-             expected, off by 1.21 %."
+             expected, off by 1.21 %; accepted from -0.41573 to -0.40751."
         );
         assert!(seed[2].evidence.expected.contains("with g = 9.8"), "{}", seed[2].evidence.expected);
     }
@@ -627,6 +645,43 @@ mod tests {
         ] {
             let marks = marks(&hanging()[..1], &function(num, den));
             assert_eq!(marks[2].code, code, "{den}: {}", marks[2].evidence.reason);
+        }
+    }
+
+    /// Both ends that are told are accepted, and the next decimal beyond each is not.
+    #[test]
+    fn the_interval_told_is_the_one_decided() {
+        for (what, num, den, told, beyond) in [
+            (
+                "in the reference's scale",
+                "-0.06 0",
+                "0.0132 0.0024 X 0.05886",
+                "0.40793 0.41616",
+                "0.40792 0.41617",
+            ),
+            ("turned", "0.06 0", "-0.0132 -0.0024 X -0.05886", "-0.41616 -0.40793", "-0.41617 -0.40792"),
+            // The others are rounded, and leave the factor less room.
+            ("monic", "-4.545 0", "1 0.1818 X 4.459", "30.904 31.524", "30.903 31.525"),
+            (
+                "of the numerator",
+                "X 0",
+                "0.0132 0.0024 0.41202 0.05886",
+                "-0.0606 -0.05941",
+                "-0.06061 -0.05940",
+            ),
+        ] {
+            let with = |text: &str| function(&num.replace('X', text), &den.replace('X', text));
+            let wrong = marks(&hanging()[..1], &with(if told.starts_with('-') { "-3" } else { "3" }));
+            let (low, high) = told.split_once(' ').unwrap();
+            let part = if num.starts_with('X') { 1 } else { 2 };
+            let reason = &wrong[part].evidence.reason;
+            assert!(reason.contains(&format!("accepted from {low} to {high}")), "{what}: {reason}");
+            for end in told.split(' ') {
+                assert_eq!(marks(&hanging()[..1], &with(end))[part].code, "right", "{what}: {end}");
+            }
+            for end in beyond.split(' ') {
+                assert_ne!(marks(&hanging()[..1], &with(end))[part].code, "right", "{what}: {end}");
+            }
         }
     }
 

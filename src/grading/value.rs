@@ -1,11 +1,11 @@
 use super::Evidence;
 use super::accepted::{Accepted, also};
-use super::closeness::{Closeness, accepted_in_words, closeness, percent, shown};
-use super::mark::Mark;
-use crate::algebra::{Rational, from_f64};
-use crate::lab::{FeatureKind, Points, Tolerance};
+use super::closeness::{Closeness, Expected, percent, shown};
+use super::mark::{Mark, share};
+use crate::algebra::{Rational, significant, to_f64};
+use crate::lab::{AskedFeature, FeatureKind, Points, Tolerance};
 use crate::lti::{Features, Limit};
-use crate::submission::{Decimal, FinalValue};
+use crate::submission::{Decimal, FinalValue, Unit, UnitRatio};
 
 /// What a feature computed in floating point may be off by, as a part of itself,
 const COMPUTED_TO: f64 = 1e-9;
@@ -13,10 +13,9 @@ const COMPUTED_TO: f64 = 1e-9;
 const RESIDUE: f64 = 1e-11;
 
 /// What a feature is.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 enum Truth {
-    /// A number, and what it may itself be off by.
-    Number(f64, f64),
+    Number(Expected),
     PlusInfinity,
     MinusInfinity,
     /// Swings for ever, bounded or growing: there is no limit, and no side it goes to.
@@ -25,14 +24,18 @@ enum Truth {
     None,
 }
 
-fn truth(features: &Features, feature: FeatureKind) -> Truth {
+/// In the unit the feature is computed in.
+fn truth(features: &Features, kind: FeatureKind) -> Truth {
     let finite = |size: f64| if size.is_finite() { size.abs() } else { 0.0 };
     let extrema = features.extrema.iter().map(|extremum| finite(extremum.value));
     let largest = extrema.fold(finite(features.initial_value), f64::max);
     let slowest = features.slowest_time_constant_s.map_or(0.0, finite);
-    let number = |value: f64, scale: f64| Truth::Number(value, COMPUTED_TO * value.abs() + RESIDUE * scale);
+    let number = |value: f64, scale: f64| {
+        let bound = COMPUTED_TO * value.abs() + RESIDUE * scale;
+        Expected::computed(value, bound).map_or(Truth::None, Truth::Number)
+    };
     let optional = |value: Option<f64>, scale: f64| value.map_or(Truth::None, |value| number(value, scale));
-    match feature {
+    match kind {
         FeatureKind::InitialValue => number(features.initial_value, largest),
         FeatureKind::FinalValue => match features.final_value {
             Limit::Value(value) => number(value, largest),
@@ -41,29 +44,109 @@ fn truth(features: &Features, feature: FeatureKind) -> Truth {
             Limit::Oscillates | Limit::OscillatesUnbounded => Truth::NoLimit,
         },
         FeatureKind::Peak => optional(features.peak.map(|peak| peak.value), largest),
+        FeatureKind::PeakTimeS => optional(features.peak.map(|peak| peak.time_s), slowest),
         FeatureKind::PeriodS => optional(features.period_s, slowest),
         FeatureKind::DampingRatio => optional(features.damping_ratio, 1.0),
+        FeatureKind::NaturalFrequencyRadS => optional(features.natural_frequency_rad_s, 0.0),
+        FeatureKind::DampedFrequencyRadS => optional(features.damped_frequency_rad_s(), 0.0),
         FeatureKind::SettlingTime2PercentS => optional(features.settling_time_2_percent_s, slowest),
         FeatureKind::SettlingTime5PercentS => optional(features.settling_time_5_percent_s, slowest),
+        FeatureKind::OvershootPercent => optional(features.overshoot_percent, 100.0),
+        FeatureKind::RiseTime1090S => optional(features.rise_time_10_90_s, slowest),
+        FeatureKind::RiseTime0100S => optional(features.rise_time_0_100_s, slowest),
+    }
+}
+
+/// What textbooks also give under the same name, in words and in the unit of the feature.
+fn other_conventions(features: &Features, kind: FeatureKind) -> Vec<(&'static str, Expected)> {
+    use FeatureKind::*;
+    let other = |kind: FeatureKind| match truth(features, kind) {
+        Truth::Number(expected) => Some((kind.words(), expected)),
+        _ => None,
+    };
+    let time_constants = |count: f64, words| {
+        let time = features.slowest_time_constant_s? * count;
+        Some((words, Expected::computed(time, COMPUTED_TO * time)?))
+    };
+    let all = match kind {
+        SettlingTime2PercentS | SettlingTime5PercentS => {
+            let read_off =
+                if kind == SettlingTime2PercentS { SettlingTime5PercentS } else { SettlingTime2PercentS };
+            let four =
+                || time_constants(4.0, "four time constants, an estimate of the settling time to within 2 %");
+            let three = || {
+                time_constants(3.0, "three time constants, an estimate of the settling time to within 5 %")
+            };
+            vec![other(read_off), four(), three()]
+        }
+        RiseTime1090S => vec![other(RiseTime0100S)],
+        RiseTime0100S => vec![other(RiseTime1090S)],
+        NaturalFrequencyRadS => vec![other(DampedFrequencyRadS)],
+        DampedFrequencyRadS => vec![other(NaturalFrequencyRadS)],
+        _ => Vec::new(),
+    };
+    all.into_iter().flatten().collect()
+}
+
+/// A feature as it is asked for: in which unit, and how near.
+struct Question<'a> {
+    feature: &'a AskedFeature,
+    tolerance: &'a Tolerance,
+    /// How much of the unit asked for is one of the unit it is computed in.
+    ratio: UnitRatio,
+}
+
+impl<'a> Question<'a> {
+    fn new(feature: &'a AskedFeature, tolerance: &'a Tolerance) -> Self {
+        let ratio = match (&feature.native, &feature.unit) {
+            (Some(native), Some(asked)) => native.in_unit(asked),
+            _ => None,
+        };
+        Self { feature, tolerance, ratio: ratio.unwrap_or_else(UnitRatio::one) }
+    }
+
+    /// In the unit asked for.
+    fn truth(&self, features: &Features) -> Truth {
+        match truth(features, self.feature.kind) {
+            Truth::Number(expected) => Truth::Number(expected.in_unit(&self.ratio)),
+            other => other,
+        }
+    }
+
+    fn unit(&self) -> &str {
+        self.feature.unit.as_ref().map_or("", Unit::symbol)
+    }
+
+    fn shown(&self, expected: &Expected) -> String {
+        with_unit(&shown(to_f64(&expected.value), self.tolerance), self.unit())
+    }
+
+    /// How near a number is that was typed in a unit of which one is `ratio` of the unit asked for.
+    fn closeness(&self, expected: &Expected, typed: &Decimal, ratio: &UnitRatio) -> Closeness {
+        let back = ratio.inverse();
+        let (factor, bound) = back.value();
+        let absolute = &self.tolerance.absolute * (factor + bound);
+        expected.in_unit(&back).closeness(typed, &Tolerance { absolute, ..self.tolerance.clone() })
     }
 }
 
 /// What is expected of the value, in words.
 pub(super) fn expected(
     accepted: &[Accepted<'_, Features>],
-    feature: FeatureKind,
+    feature: &AskedFeature,
     tolerance: &Tolerance,
 ) -> String {
     let Some(main) = accepted.first() else { return String::new() };
-    match truth(main.what, feature) {
-        Truth::Number(value, bound) => {
-            let own = shown(value, tolerance);
-            let same = |one: &Accepted<'_, Features>| match truth(one.what, feature) {
-                Truth::Number(value, _) => shown(value, tolerance) == own,
+    let question = Question::new(feature, tolerance);
+    match question.truth(main.what) {
+        Truth::Number(expected) => {
+            let own = question.shown(&expected);
+            let same = |one: &Accepted<'_, Features>| match question.truth(one.what) {
+                Truth::Number(expected) => question.shown(&expected) == own,
                 _ => false,
             };
             let others = if accepted.iter().all(same) { String::new() } else { also(accepted) };
-            format!("{own}; {}.{others}", accepted_in_words(value, bound, tolerance, ""))
+            format!("{own}; {}.{others}", expected.accepted_in_words(tolerance, question.unit()))
         }
         Truth::PlusInfinity => "It grows without bound, to +∞.".to_owned(),
         Truth::MinusInfinity => "It grows without bound, to -∞.".to_owned(),
@@ -76,92 +159,250 @@ pub(super) fn expected(
 pub(super) fn judge(
     points: Points,
     accepted: &[Accepted<'_, Features>],
-    feature: FeatureKind,
+    feature: &AskedFeature,
     tolerance: &Tolerance,
     typed: &FinalValue,
 ) -> Mark {
     let found = match typed {
-        FinalValue::Number(decimal) => decimal.text.clone(),
         FinalValue::Unbounded => "unbounded, or no such value".to_owned(),
-        FinalValue::PlusInfinity => "+∞".to_owned(),
-        FinalValue::MinusInfinity => "-∞".to_owned(),
+        other => other.read_as(),
     };
     let expected = expected(accepted, feature, tolerance);
-    let mut first_wrong = None;
+    let question = Question::new(feature, tolerance);
+    let mut best: Option<Outcome> = None;
     for one in accepted {
-        let (code, reason) = compare(truth(one.what, feature), tolerance, typed, &one.with());
-        let evidence =
-            Evidence { expected: expected.clone(), found: found.clone(), reason, ..Evidence::default() };
-        if code == "right" {
-            return Mark::right(points, evidence);
+        let outcome = question.compare(one, typed);
+        if best.as_ref().is_none_or(|known| outcome.rank() > known.rank()) {
+            best = Some(outcome);
         }
-        first_wrong.get_or_insert_with(|| Mark::wrong(code, evidence));
     }
-    first_wrong
-        .unwrap_or_else(|| Mark::unmarked(expected, found, "There is no reference to compare this with."))
-}
-
-fn compare(truth: Truth, tolerance: &Tolerance, typed: &FinalValue, with: &str) -> (&'static str, String) {
-    match (truth, typed) {
-        (Truth::Number(want, bound), FinalValue::Number(have)) => {
-            compare_numbers(want, bound, tolerance, have, with)
-        }
-        (Truth::Number(want, _), _) => {
-            let reason =
-                format!("The value is a number, {}: it does not grow without bound.", shown(want, tolerance));
-            ("value.number_given_unbounded", reason)
-        }
-        (Truth::PlusInfinity | Truth::MinusInfinity, FinalValue::Unbounded)
-        | (Truth::PlusInfinity, FinalValue::PlusInfinity)
-        | (Truth::MinusInfinity, FinalValue::MinusInfinity) => {
-            ("right", "It grows without bound.".to_owned())
-        }
-        (Truth::PlusInfinity | Truth::MinusInfinity, FinalValue::Number(_)) => {
-            ("value.unbounded_given_number", "It grows without bound, so no number is its value.".to_owned())
-        }
-        (Truth::PlusInfinity, _) => ("value.sign", "It grows without bound, but to +∞.".to_owned()),
-        (Truth::MinusInfinity, _) => ("value.sign", "It grows without bound, but to -∞.".to_owned()),
-        (Truth::NoLimit | Truth::None, FinalValue::Unbounded) => {
-            ("right", "There is no such value.".to_owned())
-        }
-        (Truth::NoLimit, FinalValue::Number(_)) => (
-            "value.unbounded_given_number",
-            "The response swings for ever, so no number is its limit.".to_owned(),
-        ),
-        (Truth::NoLimit, _) => {
-            ("value.sign", "The response swings for ever and goes to neither side.".to_owned())
-        }
-        (Truth::None, _) => ("value.none", "The response has no such value.".to_owned()),
+    let Some(Outcome { code, reason }) = best else {
+        return Mark::unmarked(expected, found, "There is no reference to compare this with.");
+    };
+    let evidence = Evidence { expected, found, reason, ..Evidence::default() };
+    let left = if code == "value.other_convention" {
+        share(points, &feature.other_convention)
+    } else {
+        Points::ZERO
+    };
+    match code {
+        "right" => Mark::right(points, evidence),
+        code if left == Points::ZERO => Mark::wrong(code, evidence),
+        code if left == points => Mark { code, ..Mark::right(points, evidence) },
+        code => Mark::partly(code, left, evidence),
     }
 }
 
-fn compare_numbers(
-    want: f64,
-    bound: f64,
-    tolerance: &Tolerance,
-    have: &Decimal,
-    with: &str,
-) -> (&'static str, String) {
-    let near = |value: f64| closeness(value, bound, have, tolerance);
-    let shown = shown(want, tolerance);
-    match near(want) {
-        Closeness::Within => ("right", format!("It is within the tolerance of {shown}{with}.")),
-        Closeness::Rounded => ("right", format!("It is {shown}{with}, correctly rounded.")),
-        Closeness::Off if near(-want).accepted() => {
-            ("value.sign", format!("The size is right, the sign is not: {shown} was expected."))
+struct Outcome {
+    code: &'static str,
+    reason: String,
+}
+
+impl Outcome {
+    fn new(code: &'static str, reason: impl Into<String>) -> Self {
+        Self { code, reason: reason.into() }
+    }
+
+    /// The most telling one of several is shown.
+    fn rank(&self) -> u8 {
+        match self.code {
+            "right" => 4,
+            "value.other_convention" => 3,
+            "value.sign" => 2,
+            "value.other_unit" => 1,
+            _ => 0,
         }
-        Closeness::Off => {
-            let by = from_f64(want).filter(|want| !want.is_zero()).map(|want| (&have.value - &want) / want);
-            let by = match by {
-                Some(by) if shown != "0" => {
-                    let size = if by < Rational::ZERO { -by } else { by };
-                    format!("It is off by {}: {shown} was expected.", percent(&size))
-                }
-                _ => format!("{shown} was expected."),
+    }
+}
+
+/// How a typed number is to be read in the unit asked for.
+enum Scale {
+    /// One of the typed unit is so many of the unit asked for. The likelier first.
+    Known(Vec<UnitRatio>),
+    /// It measures something else.
+    OtherQuantity,
+}
+
+impl Question<'_> {
+    fn compare(&self, one: &Accepted<'_, Features>, typed: &FinalValue) -> Outcome {
+        match (self.truth(one.what), typed) {
+            (Truth::Number(want), FinalValue::Number(have, unit)) => {
+                self.compare_numbers(&want, one, have, unit.as_ref())
+            }
+            (Truth::Number(want), _) => {
+                let reason =
+                    format!("The value is a number, {}: it does not grow without bound.", self.shown(&want));
+                Outcome::new("value.number_given_unbounded", reason)
+            }
+            (Truth::PlusInfinity | Truth::MinusInfinity, FinalValue::Unbounded)
+            | (Truth::PlusInfinity, FinalValue::PlusInfinity)
+            | (Truth::MinusInfinity, FinalValue::MinusInfinity) => {
+                Outcome::new("right", "It grows without bound.")
+            }
+            (Truth::PlusInfinity | Truth::MinusInfinity, FinalValue::Number(..)) => Outcome::new(
+                "value.unbounded_given_number",
+                "It grows without bound, so no number is its value.",
+            ),
+            (Truth::PlusInfinity, _) => Outcome::new("value.sign", "It grows without bound, but to +∞."),
+            (Truth::MinusInfinity, _) => Outcome::new("value.sign", "It grows without bound, but to -∞."),
+            (Truth::NoLimit | Truth::None, FinalValue::Unbounded) => {
+                Outcome::new("right", "There is no such value.")
+            }
+            (Truth::NoLimit, FinalValue::Number(..)) => Outcome::new(
+                "value.unbounded_given_number",
+                "The response swings for ever, so no number is its limit.",
+            ),
+            (Truth::NoLimit, _) => {
+                Outcome::new("value.sign", "The response swings for ever and goes to neither side.")
+            }
+            (Truth::None, _) => Outcome::new("value.none", "The response has no such value."),
+        }
+    }
+
+    /// How the unit typed, if any, stands to the one asked for.
+    fn scale(&self, typed: Option<&Unit>) -> Scale {
+        let Some(typed) = typed else { return Scale::Known(vec![UnitRatio::one()]) };
+        let Some(asked) = &self.feature.unit else {
+            // The lab does not say what the output is measured in: as it stands, or in SI.
+            return Scale::Known([UnitRatio::one()].into_iter().chain(typed.in_si()).collect());
+        };
+        if !asked.is_known() || !typed.is_known() {
+            return Scale::Known(vec![UnitRatio::one()]);
+        }
+        let found = [asked].into_iter().chain(&self.feature.also).find_map(|unit| typed.in_unit(unit));
+        found.map_or(Scale::OtherQuantity, |ratio| Scale::Known(vec![ratio]))
+    }
+
+    fn compare_numbers(
+        &self,
+        want: &Expected,
+        one: &Accepted<'_, Features>,
+        have: &Decimal,
+        unit: Option<&Unit>,
+    ) -> Outcome {
+        let with = one.with();
+        let shown = self.shown(want);
+        let symbol = unit.map_or("", Unit::symbol);
+        let typed = with_unit(&have.text, symbol);
+        let ratios = match self.scale(unit) {
+            Scale::Known(ratios) => ratios,
+            // Nothing is nothing, whatever it is measured in.
+            Scale::OtherQuantity if have.is_zero() => vec![UnitRatio::one()],
+            Scale::OtherQuantity => return self.other_quantity(want, have, unit),
+        };
+        for ratio in &ratios {
+            let how = match self.closeness(want, have, ratio) {
+                Closeness::Within => format!("within the tolerance of {shown}{with}"),
+                Closeness::Rounded => format!("{shown}{with}, correctly rounded"),
+                Closeness::Off => continue,
             };
-            ("value.differs", by)
+            let reason = if *ratio == UnitRatio::one() {
+                format!("It is {how}.")
+            } else {
+                format!("{typed} is {}: it is {how}.", self.converted(have, ratio))
+            };
+            return Outcome::new("right", reason);
         }
+        let negative = Expected { value: -want.value.clone(), error_bound: want.error_bound.clone() };
+        for ratio in &ratios {
+            if self.closeness(&negative, have, ratio).accepted() {
+                let reason = format!("The size is right, the sign is not: {shown} was expected.");
+                return Outcome::new("value.sign", reason);
+            }
+            for (words, other) in other_conventions(one.what, self.feature.kind) {
+                if self.closeness(&other.in_unit(&self.ratio), have, ratio).accepted() {
+                    let asked = self.feature.kind.words();
+                    let reason = format!("{typed} is {words}; {asked} was asked, and that is {shown}.");
+                    return Outcome::new("value.other_convention", reason);
+                }
+            }
+        }
+        if let Some(reason) = self.other_unit(want, have, unit) {
+            return Outcome::new("value.other_unit", reason);
+        }
+        let off = ratios.first().map(|ratio| {
+            let (factor, _) = ratio.value();
+            &have.value * factor - &want.value
+        });
+        let by = off.filter(|_| !want.value.is_zero() && !shown.starts_with("0 ") && shown != "0");
+        let reason = match by {
+            Some(off) => {
+                let part = off / &want.value;
+                let size = if part < Rational::ZERO { -part } else { part };
+                format!("It is off by {}: {shown} was expected.", percent(&size))
+            }
+            None => format!("{shown} was expected."),
+        };
+        Outcome::new("value.differs", reason)
     }
+
+    /// The number as it is in the unit asked for: `5.5857 rad/s`.
+    fn converted(&self, typed: &Decimal, ratio: &UnitRatio) -> String {
+        let (factor, _) = ratio.value();
+        with_unit(&significant(to_f64(&(&typed.value * factor)), 5), self.unit())
+    }
+
+    /// Why the number is right in a unit that was neither asked for nor typed; `None` when it is in none.
+    fn other_unit(&self, want: &Expected, have: &Decimal, typed: Option<&Unit>) -> Option<String> {
+        let asked = self.feature.unit.as_ref()?;
+        let written = typed.unwrap_or(asked);
+        // A width that belongs to zero would make much of small numbers.
+        let tolerance = Tolerance { absolute: Rational::ZERO, ..self.tolerance.clone() };
+        let strict = Question { tolerance: &tolerance, ratio: self.ratio.clone(), ..*self };
+        let units = [asked.clone()].into_iter().chain(asked.others());
+        let meant = units.filter(|unit| unit.in_unit(written) != Some(UnitRatio::one())).find(|unit| {
+            unit.in_unit(asked).is_some_and(|ratio| strict.closeness(want, have, &ratio).accepted())
+        })?;
+        let number = &have.text;
+        let shown = self.shown(want);
+        let is = match meant.symbol() {
+            "" => format!("{number} is the value as a ratio"),
+            symbol => format!("{number} is the value in {symbol}"),
+        };
+        let asked = self.unit();
+        Some(match (typed, asked) {
+            (Some(written), _) if meant.symbol() == asked => {
+                format!("{is}, but {} was written behind it; {shown} was expected.", written.symbol())
+            }
+            (Some(written), _) if written.symbol() != asked => {
+                format!("{is}, but {} was written behind it; {shown} was expected.", written.symbol())
+            }
+            (_, "") => format!("{is}; it was asked as a pure number, {shown}."),
+            _ => format!("{is}; it was asked in {asked}, where it is {shown}."),
+        })
+    }
+
+    fn other_quantity(&self, want: &Expected, have: &Decimal, unit: Option<&Unit>) -> Outcome {
+        let Some((typed, asked)) = unit.zip(self.feature.unit.as_ref()) else {
+            return Outcome::new("value.unit", format!("{} was expected.", self.shown(want)));
+        };
+        let number = if self.closeness(want, have, &UnitRatio::one()).accepted() {
+            "The number is right, but its unit is not: "
+        } else {
+            ""
+        };
+        let measures = format!("{} is a unit of {}", typed.symbol(), without_article(typed.quantity()));
+        let reason = match asked.symbol() {
+            "" => format!("{number}{measures}, and a pure number was asked, {}.", self.shown(want)),
+            symbol => format!(
+                "{number}{measures}, and {} in {symbol} was asked, {}.",
+                asked.quantity(),
+                self.shown(want)
+            ),
+        };
+        Outcome::new("value.unit", reason)
+    }
+}
+
+fn with_unit(number: &str, unit: &str) -> String {
+    match unit {
+        "" => number.to_owned(),
+        unit => format!("{number} {unit}"),
+    }
+}
+
+fn without_article(quantity: &str) -> &str {
+    quantity.strip_prefix("a ").or_else(|| quantity.strip_prefix("an ")).unwrap_or(quantity)
 }
 
 #[cfg(test)]
@@ -180,13 +421,32 @@ mod tests {
         Features { initial_value, final_value, peak, period_s: Some(1.1246), ..decay }
     }
 
+    /// As a lab asks for it whose output is in rad and whose input is in N.
+    fn asked(kind: FeatureKind) -> AskedFeature {
+        asked_in(kind, None)
+    }
+
+    fn asked_in(kind: FeatureKind, unit: Option<&str>) -> AskedFeature {
+        let native = kind.unit(Unit::parse("rad").as_ref());
+        let per_push = ["rad/N", "rad/(N s)"].map(|text| Unit::parse(text).unwrap());
+        let unit = unit.map(|text| if text == "1" { Unit::one() } else { Unit::parse(text).unwrap() });
+        let also = if kind.is_output() { per_push.into() } else { Vec::new() };
+        AskedFeature {
+            kind,
+            unit: unit.or_else(|| native.clone()),
+            native,
+            also,
+            other_convention: Rational::ZERO,
+        }
+    }
+
     #[track_caller]
     fn check(rows: &[(FeatureKind, f64, Limit, FinalValue, &str)]) {
         for (feature, initial, limit, answer, code) in rows {
             let features = features(*initial, *limit);
             let accepted = [Accepted { differs: &[], what: &features }];
             let tolerance = tolerance("0.001", "0.01", Some(2));
-            let mark = judge(Points(50), &accepted, *feature, &tolerance, answer);
+            let mark = judge(Points(50), &accepted, &asked(*feature), &tolerance, answer);
             assert_eq!(mark.code, *code, "{feature:?} {limit:?} {answer:?}: {}", mark.evidence.reason);
             assert_eq!(mark.earned, if *code == "right" { Points(50) } else { Points::ZERO });
         }
@@ -197,7 +457,7 @@ mod tests {
         use super::FinalValue as Answer;
         use super::FinalValue::{MinusInfinity as Minus, PlusInfinity as Plus, Unbounded};
         use FeatureKind::*;
-        let number = |text| Answer::Number(typed(text));
+        let number = |text| Answer::Number(typed(text), None);
         let at_zero = Limit::Value(1e-19);
         check(&[
             // feature, initial value, limit, answer, code

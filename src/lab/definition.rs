@@ -1,4 +1,4 @@
-use super::Points;
+use super::{AskedFeature, Points};
 use crate::algebra::Rational;
 use crate::lti::InputKind;
 use crate::model::{Comparison, Equilibrium, Model};
@@ -190,7 +190,7 @@ pub enum Check {
     Feature {
         of: SystemRef,
         response: InputKind,
-        feature: FeatureKind,
+        feature: AskedFeature,
         tolerance: Tolerance,
     },
     Shape {
@@ -217,18 +217,6 @@ pub enum Check {
     Nonlinearity {
         expected: NonlinearityKind,
     },
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FeatureKind {
-    InitialValue,
-    FinalValue,
-    /// Signed value of the extremum of largest magnitude.
-    Peak,
-    PeriodS,
-    DampingRatio,
-    SettlingTime2PercentS,
-    SettlingTime5PercentS,
 }
 
 #[derive(Clone, Debug, PartialEq)]

@@ -332,6 +332,8 @@ pub(super) struct FieldFile {
     pub kind: Text,
     /// What is asked for, one line.
     pub prompt: String,
+    /// For a `value`: the unit it is asked in, such as `rad/s`; `1` for a pure number. Default: that of the feature.
+    pub unit: Option<Text>,
     /// Full marks can be had without it. Default false.
     #[serde(default)]
     pub optional: bool,
@@ -354,13 +356,14 @@ pub(super) struct CriterionFile {
     pub of: Option<Text>,
     /// `impulse` or `step`. Default `impulse`. For `feature`, `shape`, `plot`.
     pub response: Option<Text>,
-    /// For `feature`: `initial_value`, `final_value`, `peak`, `period_s`, `damping_ratio`, `settling_time_2_percent_s` or
-    /// `settling_time_5_percent_s`.
+    /// For `feature`: `initial_value`, `final_value`, `peak`, `period_s`, … as the manual lists them.
     pub feature: Option<Text>,
     /// In place of the lab's.
     pub tolerance: Option<Spanned<ToleranceFile>>,
     /// For `denominator`: the part of the points that a single mistyped coefficient leaves, 0 to 1. Default 0.
     pub one_slip: Option<Text>,
+    /// For `feature`: the part of the points left by what is right under another convention (5 % for 2 %), 0 to 1. Default 0.
+    pub other_convention: Option<Text>,
     /// In place of the lab's `credit`, for what rests on an earlier answer: 0 to 1.
     pub follow_through: Option<Text>,
     /// For `plot`: the field with the data. Default: none, only a figure can be handed in.

@@ -3,6 +3,7 @@
 mod check;
 mod definition;
 mod errors;
+mod feature;
 mod file;
 mod load;
 mod model_answer;
@@ -14,5 +15,6 @@ mod template;
 
 pub use definition::*;
 pub use errors::{LabErrors, LoadError};
+pub use feature::{AskedFeature, FeatureKind};
 pub use load::{DEFAULT, embedded, load};
 pub use points::Points;

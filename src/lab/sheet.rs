@@ -1,6 +1,6 @@
 use super::{Check, Criterion, Curve, Described, Parameter, Question, QuestionField};
 use crate::lti::InputKind;
-use crate::submission::{AnswerSheet, Field};
+use crate::submission::{AnswerSheet, Field, Unit};
 
 /// What an answer file may hold. Nothing of the right answers goes in.
 pub(super) fn sheet(id: &str, title: &str, questions: &[Question], parameters: &[Parameter]) -> AnswerSheet {
@@ -12,6 +12,7 @@ pub(super) fn sheet(id: &str, title: &str, questions: &[Question], parameters: &
             prompt: field.prompt.clone(),
             about: about(question, field),
             response: response(question, &field.path),
+            unit: unit(question, &field.path),
             required: field.required,
         })
     });
@@ -50,6 +51,14 @@ fn response(question: &Question, path: &str) -> Option<InputKind> {
         | Check::Shape { response, .. }
         | Check::Concepts { describes: Some(Described { response, .. }), .. }
         | Check::Plot { curve: Curve::Response { response, .. }, .. } => Some(*response),
+        _ => None,
+    })
+}
+
+/// The unit a value is asked in.
+fn unit(question: &Question, path: &str) -> Option<Unit> {
+    judging(question, path).find_map(|criterion| match &criterion.check {
+        Check::Feature { feature, .. } => feature.unit.clone(),
         _ => None,
     })
 }

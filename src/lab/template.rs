@@ -1,5 +1,6 @@
 use super::{LabDefinition, Question};
 use crate::submission::FieldKind;
+use std::collections::BTreeMap;
 
 /// Columns a comment may take.
 const WIDTH: usize = 96;
@@ -10,6 +11,13 @@ impl LabDefinition {
     /// It is YAML that reads as blank, and its examples belong to no question.
     pub fn answer_template(&self) -> String {
         let total: super::Points = self.questions.iter().map(|q| q.points).sum();
+        let units: BTreeMap<&str, &str> = self
+            .sheet
+            .fields
+            .iter()
+            .filter_map(|field| Some((field.path.as_str(), field.unit.as_ref()?.symbol())))
+            .filter(|(_, unit)| !unit.is_empty())
+            .collect();
         let mut page = Page::default();
         page.comment("", &format!("{} ({total} points)", self.title));
         page.comment("", "Write behind the colons and below the bars; what stays empty is not answered.");
@@ -22,7 +30,7 @@ impl LabDefinition {
         page.blank();
         page.line("answers:");
         for question in &self.questions {
-            page.question(question);
+            page.question(question, &units);
         }
         page.text
     }
@@ -34,7 +42,7 @@ struct Page {
 }
 
 impl Page {
-    fn question(&mut self, question: &Question) {
+    fn question(&mut self, question: &Question, units: &BTreeMap<&str, &str>) {
         let points = question.points;
         let word = if points == super::Points(100) { "point" } else { "points" };
         self.blank();
@@ -50,8 +58,11 @@ impl Page {
         }
         for field in &question.fields {
             self.comment(indent, &field.prompt);
-            for line in how_to_write(field.kind) {
-                self.line(&format!("{indent}#   {line}"));
+            match units.get(field.path.as_str()) {
+                Some(unit) => self.line(&format!("{indent}#   a number in {unit}, or unbounded")),
+                None => {
+                    how_to_write(field.kind).iter().for_each(|line| self.line(&format!("{indent}#   {line}")))
+                }
             }
             let name = match field.path.strip_prefix(&question.id).and_then(|rest| rest.strip_prefix('.')) {
                 Some(name) if !own => name,

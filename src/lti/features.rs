@@ -175,6 +175,13 @@ impl Features {
     }
 }
 
+impl Features {
+    /// ω_d = 2π / period of the dominant pair, rad/s.
+    pub fn damped_frequency_rad_s(&self) -> Option<f64> {
+        self.period_s.map(|period_s| TAU / period_s)
+    }
+}
+
 fn first_extrema(response: &Response) -> Vec<Extremum> {
     let mut extrema = Vec::new();
     let mut scan = response.extrema_from(0.0);

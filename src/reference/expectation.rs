@@ -143,6 +143,9 @@ fn feature_value(response: &ResponseReference, feature: &str) -> Option<Vec<Expe
         slowest_time_constant_s,
         settling_time_2_percent_s,
         settling_time_5_percent_s,
+        overshoot_percent,
+        rise_time_10_90_s,
+        rise_time_0_100_s,
         ..
     } = &response.features;
     match feature {
@@ -160,6 +163,10 @@ fn feature_value(response: &ResponseReference, feature: &str) -> Option<Vec<Expe
         "slowest_time_constant_s" => numbers([(*slowest_time_constant_s)?]),
         "settling_time_2_percent_s" => numbers([(*settling_time_2_percent_s)?]),
         "settling_time_5_percent_s" => numbers([(*settling_time_5_percent_s)?]),
+        "damped_frequency_rad_s" => numbers([response.features.damped_frequency_rad_s()?]),
+        "overshoot_percent" => numbers([(*overshoot_percent)?]),
+        "rise_time_10_90_s" => numbers([(*rise_time_10_90_s)?]),
+        "rise_time_0_100_s" => numbers([(*rise_time_0_100_s)?]),
         "horizon_s" => numbers([response.horizon_s]),
         _ => None,
     }

@@ -83,6 +83,9 @@ struct ResponseView<'a> {
     natural_frequency_rad_s: Option<f64>,
     settling_time_2_percent_s: Option<f64>,
     settling_time_5_percent_s: Option<f64>,
+    overshoot_percent: Option<f64>,
+    rise_time_10_90_s: Option<f64>,
+    rise_time_0_100_s: Option<f64>,
     samples: &'a [(f64, f64)],
 }
 
@@ -190,6 +193,9 @@ fn response_view(response: &ResponseReference) -> ResponseView<'_> {
         natural_frequency_rad_s: f.natural_frequency_rad_s,
         settling_time_2_percent_s: f.settling_time_2_percent_s,
         settling_time_5_percent_s: f.settling_time_5_percent_s,
+        overshoot_percent: f.overshoot_percent,
+        rise_time_10_90_s: f.rise_time_10_90_s,
+        rise_time_0_100_s: f.rise_time_0_100_s,
         samples: &response.samples,
     }
 }

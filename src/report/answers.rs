@@ -79,7 +79,7 @@ fn expected(reference: &Reference, check: &Check) -> String {
         Check::Stability { of } => main(of).map(|m| text(m.stability.words())),
         Check::Feature { of, response, feature, .. } => point(of).map(|p| {
             let features = &response_of(p.main(), *response).features;
-            text(&feature_value(features, *feature, &p.output_unit))
+            text(&feature_value(features, feature.kind, &p.output_unit))
         }),
         Check::Shape { of, response } => {
             main(of).map(|m| text(shape_name(response_of(m, *response).features.shape)))
@@ -135,10 +135,16 @@ fn feature_value(features: &Features, kind: FeatureKind, unit: &str) -> String {
         FeatureKind::InitialValue => quantity(features.initial_value, 5, unit),
         FeatureKind::FinalValue => limit_value(features, unit),
         FeatureKind::Peak => optional(features.peak.map(|p| p.value), unit),
+        FeatureKind::PeakTimeS => optional(features.peak.map(|p| p.time_s), "s"),
         FeatureKind::PeriodS => optional(features.period_s, "s"),
         FeatureKind::DampingRatio => optional(features.damping_ratio, ""),
+        FeatureKind::NaturalFrequencyRadS => optional(features.natural_frequency_rad_s, "rad/s"),
+        FeatureKind::DampedFrequencyRadS => optional(features.damped_frequency_rad_s(), "rad/s"),
         FeatureKind::SettlingTime2PercentS => optional(features.settling_time_2_percent_s, "s"),
         FeatureKind::SettlingTime5PercentS => optional(features.settling_time_5_percent_s, "s"),
+        FeatureKind::OvershootPercent => optional(features.overshoot_percent, "%"),
+        FeatureKind::RiseTime1090S => optional(features.rise_time_10_90_s, "s"),
+        FeatureKind::RiseTime0100S => optional(features.rise_time_0_100_s, "s"),
     }
 }
 
@@ -182,7 +188,8 @@ fn decimal(d: &Decimal) -> String {
 
 fn final_value(value: &FinalValue) -> String {
     match value {
-        FinalValue::Number(d) => decimal(d),
+        FinalValue::Number(d, None) => decimal(d),
+        FinalValue::Number(d, Some(unit)) => format!("{} {}", decimal(d), sanitize(unit.symbol())),
         FinalValue::Unbounded => "no limit (unbounded)".to_owned(),
         FinalValue::PlusInfinity => "+∞".to_owned(),
         FinalValue::MinusInfinity => "−∞".to_owned(),

@@ -1,4 +1,4 @@
-use super::NonlinearityKind;
+use super::{NonlinearityKind, Unit};
 use crate::algebra::{Expression, Rational};
 use crate::lti::{Shape, Stability, TransferFunction};
 use crate::source::{Finding, SourceText, Span};
@@ -83,7 +83,8 @@ pub struct TypedComplex {
 /// A value or a limit as typed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FinalValue {
-    Number(Decimal),
+    /// A number, and the unit typed behind it.
+    Number(Decimal, Option<Unit>),
     /// `unbounded`, `diverges`, `does not exist`, `∞` without a sign.
     Unbounded,
     PlusInfinity,

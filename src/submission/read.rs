@@ -353,7 +353,8 @@ impl<'a> Reader<'a> {
                 let text = &unwrapped(text);
                 let pointed = Pointed::read(text, 0, settled([&**text]))
                     .map_err(|problem| self.place(problem, node))?;
-                let value = parse_value(&pointed.text).map_err(|problem| self.place(problem, node))?;
+                let value = parse_value(&pointed.text, field.unit.as_ref())
+                    .map_err(|problem| self.place(problem, node))?;
                 self.say_commas(&pointed.places(node, self.text));
                 Ok(AnswerValue::Value(value))
             }

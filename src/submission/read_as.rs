@@ -51,10 +51,11 @@ impl AnswerValue {
 }
 
 impl FinalValue {
-    /// `0`, `unbounded`, `+∞`, `-∞`.
+    /// `0`, `0.889 Hz`, `unbounded`, `+∞`, `-∞`.
     pub fn read_as(&self) -> String {
         match self {
-            Self::Number(number) => number.text.clone(),
+            Self::Number(number, Some(unit)) => format!("{} {}", number.text, unit.symbol()),
+            Self::Number(number, None) => number.text.clone(),
             Self::Unbounded => "unbounded".to_owned(),
             Self::PlusInfinity => "+∞".to_owned(),
             Self::MinusInfinity => "-∞".to_owned(),

@@ -2,9 +2,10 @@ use super::own_claims::contradicted_claims;
 use super::problem::quote;
 use super::shape_name;
 use super::{
-    Answer, AnswerSheet, AnswerValue, Decimal, Field, FieldKind, FinalValue, Series, Submission, TypedComplex,
+    Answer, AnswerSheet, AnswerValue, Decimal, Field, FieldKind, FinalValue, Series, Submission,
+    TypedComplex, Unit,
 };
-use crate::algebra::to_f64;
+use crate::algebra::{Rational, to_f64};
 use crate::lti::{InputKind, Response, Shape, Stability, TransferFunction, roots, stability};
 use crate::source::{Finding, Span};
 use std::collections::BTreeMap;
@@ -272,15 +273,15 @@ impl<'a> System<'a> {
         let (first, stability) = self.witness()?;
         let impulse = field.response == Some(InputKind::Impulse);
         let why = match (stability, value) {
-            (Stability::AsymptoticallyStable, FinalValue::Number(number)) => {
+            (Stability::AsymptoticallyStable, FinalValue::Number(number, _)) => {
                 (impulse && !number.is_zero()).then_some("a stable system returns to zero after an impulse")
             }
             (Stability::AsymptoticallyStable, _) => Some("a stable system does not grow without bound"),
-            (Stability::MarginallyStable, FinalValue::Number(_)) => None,
+            (Stability::MarginallyStable, FinalValue::Number(..)) => None,
             (Stability::MarginallyStable, _) => {
                 impulse.then_some("a marginally stable system stays bounded after an impulse")
             }
-            (Stability::Unstable, FinalValue::Number(_)) => Some("an unstable system does not settle"),
+            (Stability::Unstable, FinalValue::Number(..)) => Some("an unstable system does not settle"),
             (Stability::Unstable, _) => None,
         };
         why.map(|why| self.clash("contradiction.final_value", first, second, why))
@@ -339,7 +340,7 @@ impl<'a> System<'a> {
             0 => to_f64(g.num.leading()?) / to_f64(g.den.leading()?),
             _ => return None,
         };
-        let FinalValue::Number(number) = value else {
+        let FinalValue::Number(number, unit) = value else {
             return Some(self.clash(
                 CODE,
                 first,
@@ -347,6 +348,12 @@ impl<'a> System<'a> {
                 "by its degrees the response starts at a finite value",
             ));
         };
+        // What is given in other units than those of the transfer function is not compared.
+        let coherent =
+            |unit: &Unit| unit.in_si().is_some_and(|ratio| ratio.factor == Rational::ONE && ratio.pi == 0);
+        if !unit.as_ref().is_none_or(coherent) && !number.is_zero() {
+            return None;
+        }
         let found = to_f64(&number.value);
         // A zero is meant exactly, whatever its digits; noise such as 3e-18 is zero.
         let typed = if number.is_zero() || start == 0.0 { 1e-9 } else { half_place(number) };
@@ -401,7 +408,6 @@ fn close(a: &Decimal, b: &Decimal) -> bool {
 
 /// What the poles say, taken as exact.
 pub(super) fn stability_of(poles: &[TypedComplex]) -> Stability {
-    use crate::algebra::Rational;
     let on_axis = |pole: &&TypedComplex| pole.re.value == Rational::ZERO;
     let repeated = |pole: &TypedComplex| {
         poles.iter().filter(on_axis).filter(|other| other.im.value == pole.im.value).count() > 1

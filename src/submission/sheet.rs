@@ -1,3 +1,4 @@
+use super::Unit;
 use crate::algebra::Rational;
 use crate::lti::InputKind;
 use std::collections::BTreeMap;
@@ -40,6 +41,8 @@ pub struct Field {
     pub about: Option<String>,
     /// The response a value, shape, data or prose field describes: what drives the system. `None` where it describes none.
     pub response: Option<InputKind>,
+    /// What a value is asked in, where the lab says so.
+    pub unit: Option<Unit>,
     /// Needed for full marks.
     pub required: bool,
 }

@@ -35,6 +35,7 @@ fn sheet() -> AnswerSheet {
         prompt: format!("Prompt of {path}"),
         about: path.starts_with("low").then(|| "low".to_owned()),
         response: path.starts_with("low.response").then_some(InputKind::Impulse),
+        unit: None,
         required,
     });
     let symbols = [("m", "0.2"), ("l", "0.3")].map(|(n, v)| (n.to_owned(), parse_decimal(v).unwrap()));
@@ -299,7 +300,7 @@ fn yaml_types_do_not_matter() {
 fn decimal_commas_are_read_and_said() {
     for (path, value, read_as, marked) in [
         ("low.response.initial_value", "0,0", "0.0", "0,0"),
-        ("low.response.initial_value", "-0,143 rad", "-0.143", "-0,143"),
+        ("low.response.initial_value", "-0,143 rad", "-0.143 rad", "-0,143"),
         ("low.response.poles", "-0,143", "-0.143", "-0,143"),
         (
             "low.response.poles",

@@ -63,7 +63,7 @@ impl Unit {
 
     /// A unit of which only the name is known, such as `counts`.
     pub fn named(name: &str) -> Self {
-        Self { symbol: bare(name).to_owned(), scale: None }
+        Self { symbol: bare(name).split_whitespace().collect::<Vec<_>>().join(" "), scale: None }
     }
 
     /// In its usual spelling: `rad/s`, `deg`, `N·m`; empty for a pure number.
@@ -146,6 +146,15 @@ impl Unit {
 }
 
 impl UnitRatio {
+    pub fn one() -> Self {
+        Self { factor: Rational::ONE, pi: 0 }
+    }
+
+    /// The other way round: 1/2 where this is 2.
+    pub fn inverse(&self) -> Self {
+        Self { factor: self.factor.clone().pow(-1), pi: -self.pi }
+    }
+
     /// The value, and what it may be off by: 0 without π.
     pub fn value(&self) -> (Rational, Rational) {
         if self.pi == 0 {

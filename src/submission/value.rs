@@ -1,11 +1,13 @@
-use super::FinalValue;
 use super::decimal::{is_minus, scan};
 use super::problem::{Problem, quote};
+use super::{FinalValue, Unit};
 
-const HELP: &str = "Write a number such as `0`, `-0.143` or `1e-3`, or `unbounded`, `+∞` or `-∞`.";
+const HELP: &str = "Write a number such as `0`, `-0.143` or `1e-3`, with its unit if you like (`1.5 s`), or `unbounded`, `+∞` or `-∞`.";
 
-/// A value or a limit as typed: `0`, `≈ -0.143 rad`, `unbounded`, `-∞`, `does not exist` …
-pub(super) fn parse_value(text: &str) -> Result<FinalValue, Problem> {
+/// A value or a limit as typed: `0`, `≈ -0.143 rad`, `0.889 Hz`, `unbounded`, `-∞`, `does not exist` …
+///
+/// `asked`: the unit the lab asks for.
+pub(super) fn parse_value(text: &str, asked: Option<&Unit>) -> Result<FinalValue, Problem> {
     if let Some(value) = limit_word(without_name(text)) {
         return Ok(value);
     }
@@ -21,7 +23,7 @@ pub(super) fn parse_value(text: &str) -> Result<FinalValue, Problem> {
         _ => (false, body),
     };
     if without_remark(unsigned).trim().trim_end_matches('.').eq_ignore_ascii_case("zero") {
-        return parse_value("0");
+        return parse_value("0", None);
     }
     let Some((number, length)) = scan(unsigned) else {
         return Err(unreadable(0, text.len()));
@@ -32,92 +34,14 @@ pub(super) fn parse_value(text: &str) -> Result<FinalValue, Problem> {
         Problem::new("value.unreadable", start, digits_at + length, format!("{error}.")).help(HELP)
     })?;
     let number = if sign { number.negated() } else { number };
-    match unit(rest) {
-        Unit::None | Unit::Coherent => Ok(FinalValue::Number(number)),
-        Unit::Other if number.is_zero() => Ok(FinalValue::Number(number)),
-        Unit::Other => Err(Problem::new(
-            "value.unit",
-            text.len() - rest.trim_start().len(),
-            text.len(),
-            format!("The unit {} would change the number, so the value is not read.", quote(rest)),
-        )
-        .help("Give the value in SI units without prefix (rad, rad/s, m, s, V), or without a unit.")),
-        Unit::Words => Err(unreadable(text.len() - rest.trim_start().len(), text.len())),
+    if rest.trim().trim_end_matches('.').is_empty() {
+        return Ok(FinalValue::Number(number, None));
     }
-}
-
-enum Unit {
-    None,
-    /// Factor 1 in SI.
-    Coherent,
-    Other,
-    Words,
-}
-
-fn unit(text: &str) -> Unit {
-    let text = text.trim().trim_end_matches('.');
-    const COHERENT: &[&str] = &[
-        "rad",
-        "rads",
-        "radian",
-        "radians",
-        "rad/s",
-        "rad/sec",
-        "radians/second",
-        "m",
-        "metre",
-        "metres",
-        "meter",
-        "meters",
-        "m/s",
-        "s",
-        "sec",
-        "second",
-        "seconds",
-        "v",
-        "volt",
-        "volts",
-        "n",
-        "newton",
-        "newtons",
-        "a",
-        "1/s",
-        "s^-1",
-        "s⁻¹",
-        "rad s^-1",
-        "rad·s⁻¹",
-        "rad s⁻¹",
-    ];
-    const OTHER: &[&str] = &[
-        "deg",
-        "degs",
-        "degree",
-        "degrees",
-        "°",
-        "º",
-        "deg/s",
-        "°/s",
-        "degrees/second",
-        "ms",
-        "mrad",
-        "mm",
-        "cm",
-        "mv",
-        "kv",
-        "hz",
-        "rpm",
-        "%",
-        "percent",
-        "min",
-        "revolutions",
-        "rev",
-    ];
-    let lower = text.to_lowercase();
-    match lower.as_str() {
-        "" => Unit::None,
-        unit if COHERENT.contains(&unit) => Unit::Coherent,
-        unit if OTHER.contains(&unit) => Unit::Other,
-        _ => Unit::Words,
+    // A unit of the lab's own, such as `counts`, is known by its name alone.
+    let own = asked.filter(|asked| asked.in_unit(&Unit::named(rest)).is_some());
+    match Unit::parse(rest).or_else(|| own.cloned()) {
+        Some(unit) => Ok(FinalValue::Number(number, Some(unit))),
+        None => Err(unreadable(text.len() - rest.trim_start().len(), text.len())),
     }
 }
 
@@ -154,7 +78,6 @@ fn without_remark(text: &str) -> &str {
         "settles",
         "limit",
         "initial value",
-        "rad",
     ];
     let body = text.trim_end().trim_end_matches('.');
     let remark = body.strip_suffix(')').and_then(|body| body.rsplit_once('('));
@@ -324,7 +247,12 @@ mod tests {
     use super::*;
 
     fn number(text: &str) -> FinalValue {
-        FinalValue::Number(Decimal::parse(text).unwrap())
+        FinalValue::Number(Decimal::parse(text).unwrap(), None)
+    }
+
+    fn with(text: &str, unit: &str) -> FinalValue {
+        let unit = Unit::parse(unit).unwrap_or_else(|| Unit::named(unit));
+        FinalValue::Number(Decimal::parse(text).unwrap(), Some(unit))
     }
 
     #[test]
@@ -336,10 +264,21 @@ mod tests {
             ("− 0.143", number("-0.143")),
             ("1.50", number("1.50")),
             ("1e-3", number("1e-3")),
-            ("0 rad", number("0")),
-            ("0.2 rad/s", number("0.2")),
-            ("0°", number("0")),
-            ("0 degrees", number("0")),
+            ("0 rad", with("0", "rad")),
+            ("0.2 rad/s", with("0.2", "rad/s")),
+            ("0°", with("0", "deg")),
+            ("0 degrees", with("0", "deg")),
+            ("5 degrees", with("5", "deg")),
+            ("0.889 Hz", with("0.889", "Hz")),
+            ("53.3 rpm", with("53.3", "rpm")),
+            ("1124.7ms", with("1124.7", "ms")),
+            ("16 %", with("16", "%")),
+            ("16%", with("16", "%")),
+            ("1.12 [s]", with("1.12", "s")),
+            ("-4.5 rad (at rest)", with("-4.5", "rad")),
+            ("≈ 5.59 radians per second", with("5.59", "rad/s")),
+            ("-0.79 rad/(N·s)", with("-0.79", "rad/(N·s)")),
+            ("5 Counts", with("5", "counts")),
             ("≈ 0", number("0")),
             ("~0", number("0")),
             ("approximately 0.5", number("0.5")),
@@ -350,13 +289,13 @@ mod tests {
             ("It converges to 0.", number("0")),
             ("θ = 0", number("0")),
             ("theta = 0", number("0")),
-            ("θ(∞) = 0.5 rad", number("0.5")),
+            ("θ(∞) = 0.5 rad", with("0.5", "rad")),
             ("\\theta = 0", number("0")),
             ("y(t → ∞) = 0", number("0")),
             ("θ → -∞", MinusInfinity),
             ("0 (steady state)", number("0")),
             ("zero (steady state)", number("0")),
-            ("0 rad (at rest)", number("0")),
+            ("0 rad (at rest)", with("0", "rad")),
             ("final value: 0", number("0")),
             ("∞ rad", Unbounded),
             ("-∞ rad", MinusInfinity),
@@ -392,7 +331,8 @@ mod tests {
             ("minus infinity", MinusInfinity),
             ("it goes to negative infinity", MinusInfinity),
         ] {
-            assert_eq!(parse_value(text).as_ref(), Ok(&expected), "{text:?}");
+            let counts = Unit::named("counts");
+            assert_eq!(parse_value(text, Some(&counts)).as_ref(), Ok(&expected), "{text:?}");
         }
     }
 
@@ -400,8 +340,6 @@ mod tests {
     fn what_is_not_a_value_says_how_to_write_it() {
         for (text, code, marked, help) in [
             ("1,000", "value.unreadable", ",000", "number"),
-            ("5 degrees", "value.unit", "degrees", "SI"),
-            ("5 ms", "value.unit", "ms", "SI"),
             ("5 apples", "value.unreadable", "apples", "number"),
             ("does not diverge", "value.unreadable", "does not diverge", "number"),
             ("t = 0", "value.unreadable", "t = 0", "number"),
@@ -421,7 +359,7 @@ mod tests {
             ("NaN", "value.unreadable", "NaN", "number"),
             ("", "value.unreadable", "", "number"),
         ] {
-            let problem = parse_value(text).unwrap_err();
+            let problem = parse_value(text, None).unwrap_err();
             assert_eq!(problem.code, code, "{text:?}: {problem:?}");
             assert_eq!(&text[problem.start..problem.end], marked, "{text:?}");
             assert!(problem.help.as_deref().is_some_and(|h| h.contains(help)), "{text:?}: {problem:?}");

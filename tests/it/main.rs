@@ -5,6 +5,7 @@ mod class_marks;
 mod cli;
 mod conflicts;
 mod marking_examples;
+mod numbers;
 mod plots;
 mod readme;
 mod teacher_marks;

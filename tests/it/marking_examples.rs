@@ -28,7 +28,7 @@
 //! What stands before `marks:` is what an answer file has below `answers:`; files are those of `submissions/`. What is in
 //! double quotes is a part of what the student reads beside the mark.
 //!
-//! The embedded lab is asked, or `small.yaml` when the ids are its own.
+//! The embedded lab is asked, or `small.yaml` or `oscillator.yaml` when the ids are its own.
 
 use polemark::grading::{self, Catalogue, ItemScore};
 use polemark::lab::{self, LabDefinition, Points};
@@ -63,6 +63,11 @@ impl Bench {
     pub fn small() -> Self {
         let text = SourceText::new("small.yaml", include_str!("small.yaml"));
         Self::new(LabDefinition::parse(text).unwrap_or_else(|errors| panic!("small.yaml: {errors:#?}")))
+    }
+
+    pub fn oscillator() -> Self {
+        let text = SourceText::new("oscillator.yaml", include_str!("oscillator.yaml"));
+        Self::new(LabDefinition::parse(text).unwrap_or_else(|errors| panic!("oscillator.yaml: {errors:#?}")))
     }
 
     fn new(lab: LabDefinition) -> Self {
@@ -389,7 +394,7 @@ fn differences(bench: &Bench, example: &Example, met: &mut BTreeSet<String>) -> 
 
 #[test]
 fn the_examples_are_true_and_show_every_rule() {
-    let benches = [Bench::embedded(), Bench::small()];
+    let benches = [Bench::embedded(), Bench::small(), Bench::oscillator()];
     let manual = Manual::read(&benches);
     let mut met = BTreeSet::new();
     let mut report = Vec::new();

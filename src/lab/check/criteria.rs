@@ -4,10 +4,10 @@ use super::{Checker, Names, span};
 use crate::algebra::Rational;
 use crate::lab::file::{ConceptFile, CriterionFile, Entries, QuestionFile, Text};
 use crate::lab::names::list;
-use crate::lab::{Check, Concept, Criterion, Curve, Described, FeatureKind, SystemRef};
+use crate::lab::{AskedFeature, Check, Concept, Criterion, Curve, Described, FeatureKind, SystemRef};
 use crate::lti::InputKind;
 use crate::source::Span;
-use crate::submission::{FieldKind, nonlinearity_word};
+use crate::submission::{FieldKind, Unit, nonlinearity_word};
 
 /// A check: its name, the kind of field it judges, and the keys it takes beyond `title`, `points`, `field` and `check`.
 type CheckRow = (&'static str, FieldKind, &'static [&'static str]);
@@ -18,7 +18,11 @@ const CHECKS: &[CheckRow] = &[
     ("denominator", FieldKind::TransferFunction, &["of", "tolerance", "one_slip"]),
     ("poles", FieldKind::Poles, &["of", "tolerance", "follow_through"]),
     ("stability", FieldKind::Stability, &["of", "follow_through"]),
-    ("feature", FieldKind::Value, &["of", "tolerance", "response", "feature", "follow_through"]),
+    (
+        "feature",
+        FieldKind::Value,
+        &["of", "tolerance", "response", "feature", "other_convention", "follow_through"],
+    ),
     ("shape", FieldKind::Shape, &["of", "response", "follow_through"]),
     (
         "plot",
@@ -31,16 +35,6 @@ const CHECKS: &[CheckRow] = &[
         &["concepts", "needed", "contradictions", "follow_through", "of", "describes"],
     ),
     ("nonlinearity", FieldKind::Nonlinearity, &["expected"]),
-];
-
-const FEATURES: &[(&str, FeatureKind)] = &[
-    ("initial_value", FeatureKind::InitialValue),
-    ("final_value", FeatureKind::FinalValue),
-    ("peak", FeatureKind::Peak),
-    ("period_s", FeatureKind::PeriodS),
-    ("damping_ratio", FeatureKind::DampingRatio),
-    ("settling_time_2_percent_s", FeatureKind::SettlingTime2PercentS),
-    ("settling_time_5_percent_s", FeatureKind::SettlingTime5PercentS),
 ];
 
 /// What a criterion is judged against.
@@ -89,7 +83,8 @@ impl Checker<'_> {
             Some(text) => self.fraction(text, "`follow_through`"),
             None => Some(defaults.follow_through.credit.clone()),
         };
-        let check = self.check(check_name, file, question, fields, names, defaults)?;
+        let unit = fields.units.iter().find(|(of, _)| *of == path).map(|(_, unit)| *unit);
+        let check = self.check(check_name, file, question, fields, unit, names, defaults)?;
         Some(Criterion {
             id: format!("{}.{}", fields.question.value, name.value),
             title: file.title.trim().to_owned(),
@@ -126,12 +121,14 @@ impl Checker<'_> {
         position.map(|i| (fields.entries[i].1.clone(), fields.entries[i].2))
     }
 
+    #[allow(clippy::too_many_arguments, reason = "each is what some check needs of the file around it")]
     fn check(
         &mut self,
         check: &str,
         file: &CriterionFile,
         question: &QuestionFile,
         fields: &Fields<'_>,
+        unit: Option<&Text>,
         names: &Names<'_>,
         defaults: &Defaults,
     ) -> Option<Check> {
@@ -160,11 +157,8 @@ impl Checker<'_> {
             "feature" => {
                 let tolerance = self.tolerance_or(file.tolerance.as_ref(), defaults.values.clone());
                 let response = self.response(file);
-                let feature = self.required(file.feature.as_ref(), file, "feature").and_then(|text| {
-                    let known: Vec<&str> = FEATURES.iter().map(|(name, _)| *name).collect();
-                    self.one_of(text, "feature", &known).map(|i| FEATURES[i].1)
-                });
                 let of = self.system(file, question, names);
+                let feature = self.feature(file, response, of.as_ref(), unit, names);
                 Some(Check::Feature { of: of?, response: response?, feature: feature?, tolerance })
             }
             "shape" => {
@@ -185,6 +179,77 @@ impl Checker<'_> {
                 Some(Check::Nonlinearity { expected: expected? })
             }
         }
+    }
+
+    /// The feature asked for, in its unit and under its convention.
+    fn feature(
+        &mut self,
+        file: &CriterionFile,
+        response: Option<InputKind>,
+        of: Option<&SystemRef>,
+        unit: Option<&Text>,
+        names: &Names<'_>,
+    ) -> Option<AskedFeature> {
+        let text = self.required(file.feature.as_ref(), file, "feature")?;
+        let kinds: Vec<FeatureKind> = FeatureKind::all().collect();
+        let known: Vec<&str> = kinds.iter().map(|kind| kind.as_str()).collect();
+        let kind = kinds[self.one_of(text, "feature", &known)?];
+        if kind.is_of_steps() && response == Some(InputKind::Impulse) {
+            let message = format!("an impulse response has no `{}`", kind.as_str());
+            self.error("lab.criterion", span(text), message, Some("add `response: step`".to_owned()));
+        }
+        let other_convention = match &file.other_convention {
+            Some(given) if !kind.has_conventions() => {
+                let message = format!("`other_convention` means nothing for `{}`", kind.as_str());
+                self.error("lab.criterion", span(given), message, Some("remove it".to_owned()));
+                None
+            }
+            Some(given) => self.fraction(given, "`other_convention`"),
+            None => Some(Rational::ZERO),
+        };
+        let (output, input) = names.units_of(of?);
+        let named = |text: &str| Unit::parse(text).unwrap_or_else(|| Unit::named(text));
+        let output = (!output.is_empty()).then(|| named(output));
+        let native = kind.unit(output.as_ref());
+        let (unit, also) = match unit {
+            Some(unit) => (Some(self.asked_unit(unit, kind, native.as_ref())?), Vec::new()),
+            None => {
+                // A response to a unit impulse or step may be given per unit of it.
+                let per = native.as_ref().filter(|_| kind.is_output() && !input.is_empty());
+                let once = per.zip(Unit::parse(input)).and_then(|(native, input)| native.over(&input));
+                let twice = once.as_ref().zip(Unit::parse("s")).and_then(|(once, s)| once.over(&s));
+                (native.clone(), [once, twice].into_iter().flatten().collect())
+            }
+        };
+        Some(AskedFeature { kind, unit, native, also, other_convention: other_convention? })
+    }
+
+    /// The unit a field asks for, which must measure what the feature is.
+    fn asked_unit(&mut self, text: &Text, kind: FeatureKind, native: Option<&Unit>) -> Option<Unit> {
+        let unit = match text.value.trim() {
+            "1" => Some(Unit::one()),
+            text => Unit::parse(text).or_else(|| native.filter(|native| native.symbol() == text).cloned()),
+        };
+        let Some(unit) = unit else {
+            let message = format!("`{}` is no unit known here", text.value);
+            let help = "write `rad/s`, `Hz`, `deg`, `s`, `ms`, `m`, `cm`, `V`, `%`, …".to_owned();
+            self.error("lab.unknown_name", span(text), message, Some(help));
+            return None;
+        };
+        let Some(native) = native else { return Some(unit) };
+        if native.in_unit(&unit).is_none() {
+            let message = format!(
+                "`{}` is {}, but it is asked for in `{}`, the unit of {}",
+                kind.as_str(),
+                native.quantity(),
+                text.value.trim(),
+                unit.quantity()
+            );
+            let symbol = if native.symbol().is_empty() { "1" } else { native.symbol() };
+            self.error("lab.criterion", span(text), message, Some(format!("write `unit: {symbol}`")));
+            return None;
+        }
+        Some(unit.understood_as(native))
     }
 
     fn plot(
@@ -410,6 +475,7 @@ fn given(file: &CriterionFile) -> Vec<(&'static str, Span)> {
         ("feature", text(&file.feature)),
         ("tolerance", file.tolerance.as_ref().map(span)),
         ("one_slip", text(&file.one_slip)),
+        ("other_convention", text(&file.other_convention)),
         ("follow_through", text(&file.follow_through)),
         ("data", text(&file.data)),
         ("min_points", text(&file.min_points)),

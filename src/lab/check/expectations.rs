@@ -26,6 +26,10 @@ const OF_A_RESPONSE: &[&str] = &[
     "slowest_time_constant_s",
     "settling_time_2_percent_s",
     "settling_time_5_percent_s",
+    "damped_frequency_rad_s",
+    "overshoot_percent",
+    "rise_time_10_90_s",
+    "rise_time_0_100_s",
     "horizon_s",
 ];
 

@@ -10,7 +10,7 @@ mod simulations;
 #[cfg(test)]
 mod tests;
 
-use super::file::{LabFile, Text};
+use super::file::{Entries, LabFile, QuantityFile, Text};
 use super::{LabDefinition, LabErrors, Outcome, Parameter, SystemRef, model_answer, read, sheet};
 use crate::source::{Finding, Node, SourceText, Span, Value};
 use serde_yaml::Spanned;
@@ -54,16 +54,31 @@ struct Names<'a> {
     outcomes: Vec<&'a str>,
     /// `<model>.<operating point>`.
     systems: Vec<String>,
+    /// What the output and the input of each of them are measured in; empty where the lab does not say.
+    units: Vec<(&'a str, &'a str)>,
     simulations: Vec<&'a str>,
     questions: Vec<&'a str>,
 }
 
 impl Names<'_> {
+    /// Units of output and input of an operating point.
+    fn units_of(&self, of: &SystemRef) -> (&str, &str) {
+        let path = format!("{}.{}", of.model, of.operating_point);
+        let position = self.systems.iter().position(|system| *system == path);
+        position.and_then(|i| self.units.get(i)).copied().unwrap_or_default()
+    }
+
     fn system(&self, path: &str) -> Option<SystemRef> {
         let known = self.systems.iter().find(|s| *s == path)?;
         let (model, operating_point) = known.split_once('.')?;
         Some(SystemRef { model: model.to_owned(), operating_point: operating_point.to_owned() })
     }
+}
+
+/// What a coordinate or an input is measured in; empty where the lab does not say.
+fn unit_of<'a>(quantities: &'a Entries<QuantityFile>, name: &Text) -> &'a str {
+    let found = quantities.0.iter().find(|(known, _)| known.value == name.value);
+    found.map_or("", |(_, quantity)| quantity.unit.trim())
 }
 
 impl Checker<'_> {
@@ -81,6 +96,16 @@ impl Checker<'_> {
                         .0
                         .iter()
                         .map(move |(point, _)| format!("{}.{}", model.value, point.value))
+                })
+                .collect(),
+            units: file
+                .models
+                .0
+                .iter()
+                .flat_map(|(_, m)| {
+                    m.operating_points.value.0.iter().map(move |(_, point)| {
+                        (unit_of(&m.coordinates.value, &point.output), unit_of(&m.inputs.value, &point.input))
+                    })
                 })
                 .collect(),
             simulations: file.simulations.0.iter().map(|(id, _)| id.value.as_str()).collect(),

@@ -27,6 +27,8 @@ pub(super) struct Fields<'a> {
     pub question: &'a Text,
     /// (name, full path, kind); the name is empty for the one field of a question.
     pub entries: Vec<(&'a str, String, FieldKind)>,
+    /// Units that fields ask for, by path.
+    pub units: Vec<(String, &'a Text)>,
     /// False when a field could not be read: then nothing is said about fields that seem to be missing.
     pub complete: bool,
 }
@@ -150,7 +152,7 @@ impl Checker<'_> {
         }
         let known: Vec<&str> = KINDS.iter().map(|(name, _)| *name).collect();
         let mut fields = Vec::new();
-        let mut entries = Fields { question: id, entries: Vec::new(), complete: true };
+        let mut entries = Fields { question: id, entries: Vec::new(), units: Vec::new(), complete: true };
         for (name, path, field) in typed {
             let Some(position) = self.one_of(&field.kind, "kind of field", &known) else {
                 entries.complete = false;
@@ -158,6 +160,17 @@ impl Checker<'_> {
             };
             let kind = KINDS[position].1;
             entries.entries.push((name, path.clone(), kind));
+            match &field.unit {
+                Some(unit) if kind != FieldKind::Value => {
+                    let message = format!(
+                        "a unit is asked for in values, but `{path}` is of kind `{}`",
+                        kind_name(kind)
+                    );
+                    self.error("lab.question", span(unit), message, Some("remove `unit`".to_owned()));
+                }
+                Some(unit) => entries.units.push((path.clone(), unit)),
+                None => {}
+            }
             fields.push(QuestionField {
                 path,
                 kind,
