@@ -58,7 +58,7 @@ fn whole(
         _ => None,
     });
     let by_value = final_value.and_then(|answer| match answer.value {
-        Ok(AnswerValue::Value(FinalValue::Number(_))) => {
+        Ok(AnswerValue::Value(FinalValue::Number(..))) => {
             Some((Stability::AsymptoticallyStable, &answer.text))
         }
         Ok(AnswerValue::Value(_)) => Some((Stability::Unstable, &answer.text)),
