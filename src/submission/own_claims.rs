@@ -1,6 +1,6 @@
-use super::self_check::stability_of;
+use super::self_check::{plain_number, stability_of};
 use super::{Answer, AnswerSheet, AnswerValue, Field, FieldKind, FinalValue, Submission};
-use crate::algebra::{Rational, to_f64};
+use crate::algebra::Rational;
 use crate::lti::{Features, InputKind, Limit, Response, Stability, TransferFunction, stability};
 use crate::prose::{Claim, ClaimKind, Quantity, claims};
 
@@ -160,14 +160,15 @@ impl<'a> Witness<'a> {
             }
             Known::Value(AnswerValue::Value(own), Some(Quantity::Initial)) => {
                 let start = match own {
-                    FinalValue::Number(number) => claim.holds_for_initial_value(to_f64(&number.value)),
+                    FinalValue::Number(number, unit) => plain_number(number, unit.as_ref())
+                        .and_then(|number| claim.holds_for_initial_value(number)),
                     _ => None,
                 };
                 (start, format!("Your initial value is {}.", own.read_as()))
             }
             Known::Value(AnswerValue::Value(own), Some(Quantity::Final)) => {
                 let says = match own {
-                    FinalValue::Number(_) => format!("Your final value is {}.", own.read_as()),
+                    FinalValue::Number(..) => format!("Your final value is {}.", own.read_as()),
                     _ => format!("Your answer on the final value is “{}”.", own.read_as()),
                 };
                 (by_final_value(claim, own), says)
@@ -203,7 +204,9 @@ fn function_is(own: Stability) -> String {
 
 fn by_final_value(claim: &Claim, own: &FinalValue) -> Option<bool> {
     match own {
-        FinalValue::Number(number) => claim.holds_for_limit(Limit::Value(to_f64(&number.value))),
+        FinalValue::Number(number, unit) => {
+            plain_number(number, unit.as_ref()).and_then(|number| claim.holds_for_limit(Limit::Value(number)))
+        }
         FinalValue::PlusInfinity => claim.holds_for_limit(Limit::PlusInfinity),
         FinalValue::MinusInfinity => claim.holds_for_limit(Limit::MinusInfinity),
         // It may grow, or swing for ever: what holds for neither does not hold.
@@ -240,6 +243,7 @@ mod tests {
             prompt: String::new(),
             about: Some(about.to_owned()),
             response,
+            unit: None,
             required: false,
         });
         AnswerSheet {

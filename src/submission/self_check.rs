@@ -3,7 +3,7 @@ use super::problem::quote;
 use super::shape_name;
 use super::{
     Answer, AnswerSheet, AnswerValue, Decimal, Field, FieldKind, FinalValue, Series, Submission,
-    TypedComplex, Unit,
+    TypedComplex, Unit, UnitRatio,
 };
 use crate::algebra::{Rational, to_f64};
 use crate::lti::{InputKind, Response, Shape, Stability, TransferFunction, roots, stability};
@@ -348,13 +348,7 @@ impl<'a> System<'a> {
                 "by its degrees the response starts at a finite value",
             ));
         };
-        // What is given in other units than those of the transfer function is not compared.
-        let coherent =
-            |unit: &Unit| unit.in_si().is_some_and(|ratio| ratio.factor == Rational::ONE && ratio.pi == 0);
-        if !unit.as_ref().is_none_or(coherent) && !number.is_zero() {
-            return None;
-        }
-        let found = to_f64(&number.value);
+        let found = plain_number(number, unit.as_ref())?;
         // A zero is meant exactly, whatever its digits; noise such as 3e-18 is zero.
         let typed = if number.is_zero() || start == 0.0 { 1e-9 } else { half_place(number) };
         ((found - start).abs() > typed.max(ROUNDING * start.abs())).then(|| {
@@ -394,6 +388,12 @@ impl<'a> System<'a> {
             self.clash("contradiction.data_and_transfer_function", first, second, why)
         })
     }
+}
+
+/// A number that may be held against others of the file: without a unit, in one of SI without prefix, or 0.
+pub(super) fn plain_number(number: &Decimal, unit: Option<&Unit>) -> Option<f64> {
+    let coherent = |unit: &Unit| unit.in_si() == Some(UnitRatio::one());
+    (unit.is_none_or(coherent) || number.is_zero()).then(|| to_f64(&number.value))
 }
 
 /// What rounding to the last digit typed may change, and a little more.
