@@ -1,7 +1,7 @@
 //! Words of prose that do not go with the numbers: marked where they stand, and what is against them below.
 
 use super::prose::{Highlight, sentences};
-use super::view::ConflictView;
+use super::view::{AgainstView, ConflictView};
 use crate::grading::{Conflict, ItemScore};
 use crate::lab::Question;
 use crate::source::sanitize;
@@ -19,21 +19,26 @@ pub fn of_field(
     prose: &str,
 ) -> (Vec<Highlight>, Vec<ConflictView>) {
     let judges = |item: &&ItemScore| question.criteria.iter().any(|c| c.id == item.id && c.field == path);
-    let mut conflicts: Vec<(Range<usize>, &Conflict)> = Vec::new();
+    // Words and what they claim, with all that is against them.
+    let mut claims: Vec<(Range<usize>, Vec<&Conflict>)> = Vec::new();
     for conflict in items.iter().filter(judges).flat_map(|item| &item.evidence.conflicts) {
         let bytes = conflict.span.start..conflict.span.end;
-        let known = conflicts.iter().any(|(at, one)| *at == bytes && one.against == conflict.against);
-        if !known && prose.get(bytes.clone()).is_some_and(|words| !words.is_empty()) {
-            conflicts.push((bytes, conflict));
+        if prose.get(bytes.clone()).is_none_or(str::is_empty) {
+            continue;
+        }
+        match claims.iter_mut().find(|(at, known)| *at == bytes && known[0].claim == conflict.claim) {
+            Some((_, known)) if known.iter().any(|one| one.against == conflict.against) => {}
+            Some((_, known)) => known.push(conflict),
+            None => claims.push((bytes, vec![conflict])),
         }
     }
-    conflicts.sort_by_key(|(bytes, _)| (bytes.start, bytes.end));
-    conflicts.truncate(MOST);
+    claims.sort_by_key(|(bytes, _)| (bytes.start, bytes.end));
+    claims.truncate(MOST);
     let mut marks: Vec<Highlight> = Vec::new();
     let mut views = Vec::new();
-    for (i, (bytes, conflict)) in conflicts.into_iter().enumerate() {
+    for (i, (bytes, conflicts)) in claims.into_iter().enumerate() {
         let number = i + 1;
-        views.push(view(number, &prose[bytes.clone()], conflict));
+        views.push(view(number, &prose[bytes.clone()], &conflicts));
         match marks.last_mut() {
             // Words that overlap are marked as one.
             Some(last) if bytes.start < last.bytes.end => {
@@ -46,14 +51,19 @@ pub fn of_field(
     (marks, views)
 }
 
-fn view(number: usize, words: &str, conflict: &Conflict) -> ConflictView {
+fn view(number: usize, words: &str, conflicts: &[&Conflict]) -> ConflictView {
     let start: String = words.chars().take(LONGEST).collect();
     let more = if start.len() < words.len() { "…" } else { "" };
+    let claim = conflicts.first().map_or("", |conflict| conflict.claim.as_str());
+    let against = conflicts.iter().map(|conflict| AgainstView {
+        who: if conflict.own { "Your own answer" } else { "Reference" },
+        words_html: sentences(&sanitize(&conflict.against)),
+    });
     ConflictView {
         number,
         words: format!("{}{more}", sanitize(&start)),
-        claim: sanitize(&conflict.claim),
-        against_html: sentences(&sanitize(&conflict.against)),
-        with: if conflict.own { "your own answer" } else { "the reference" },
+        // `unstable` need not be told to mean that it is unstable.
+        claim: if claim.ends_with(words) { String::new() } else { sanitize(claim) },
+        against: against.collect(),
     }
 }

@@ -203,8 +203,8 @@ fn words_that_do_not_go_with_the_numbers_are_marked_and_told() {
         &[
             "<mark class=\"conflict\">it is </mark><strong><mark class=\"conflict\">stable</mark><sup>1</sup></strong> &amp; sound.",
             "<mark class=\"conflict\">settles</mark><sup>2</sup>",
-            "<li value=\"1\"><q>it is **stable**</q> says that it is stable, which does not go with your own answer.",
-            "which does not go with the reference. Your pole <code>5.57</code>",
+            "<li value=\"1\"><q>it is **stable**</q> says that it is stable. <span class=\"muted\">Your own answer:</span> Your pole <code>5.57</code>",
+            "<span class=\"muted\">Reference:</span> Your pole",
         ],
     );
     for hostile in HOSTILE {

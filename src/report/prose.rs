@@ -78,8 +78,9 @@ type Placed<'a> = (Event<'a>, Range<usize>);
 
 /// The events with `<mark>` about what is marked, the label behind the last of it. Marks must not overlap.
 fn highlighted<'a>(text: &'a str, events: Vec<Placed<'a>>, marks: &[Highlight]) -> Vec<Event<'a>> {
-    let can_be_marked =
-        |event: &Event<'_>| matches!(event, Event::Text(_) | Event::Code(_) | Event::InlineHtml(_));
+    let can_be_marked = |event: &Event<'_>| {
+        matches!(event, Event::Text(_) | Event::Code(_) | Event::InlineHtml(_) | Event::SoftBreak)
+    };
     let meet = |a: &Range<usize>, b: &Range<usize>| a.start < b.end && b.start < a.end;
     let lasts: Vec<Option<usize>> = marks
         .iter()

@@ -119,10 +119,17 @@ pub struct AnswerView {
 pub struct ConflictView {
     pub number: usize,
     pub words: String,
+    /// What they claim; empty when the words say just that.
     pub claim: String,
-    pub against_html: String,
-    /// `your own answer`, `the reference`.
-    pub with: &'static str,
+    pub against: Vec<AgainstView>,
+}
+
+/// What says otherwise.
+#[derive(Clone, Debug, Serialize)]
+pub struct AgainstView {
+    /// `Your own answer`, `Reference`.
+    pub who: &'static str,
+    pub words_html: String,
 }
 
 /// A criterion, or several in a row that were left blank.
