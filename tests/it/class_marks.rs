@@ -1,41 +1,11 @@
 //! The program marks `submissions/` as a careful teacher does.
 
+use crate::bench::{Bench, items};
 use crate::teacher_marks::{self, Given, Mark, Own};
-use polemark::grading::{self, Catalogue, Guard, ItemScore};
-use polemark::lab::{self, LabDefinition, Points};
-use polemark::reference::Reference;
-use polemark::submission::{self, Folder};
+use polemark::grading::{Guard, ItemScore};
+use polemark::lab::Points;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
-use std::fs;
-use std::path::PathBuf;
-
-fn folder() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("submissions")
-}
-
-fn lab() -> LabDefinition {
-    lab::load(lab::DEFAULT).expect("the embedded lab is right")
-}
-
-/// Marks one file, as `grade` does.
-fn marked(
-    lab: &LabDefinition,
-    reference: &Reference,
-    catalogue: &Catalogue,
-    file: &str,
-) -> BTreeMap<String, ItemScore> {
-    let name = format!("{file}.yaml");
-    let bytes = fs::read(folder().join(&name)).unwrap_or_else(|error| panic!("{name}: {error}"));
-    let submission = submission::read(file, &name, &bytes, &lab.sheet, &Folder(folder()));
-    let scorecard = grading::grade(lab, reference, catalogue, &submission, None);
-    scorecard
-        .questions
-        .into_iter()
-        .flat_map(|question| question.items)
-        .map(|item| (item.id.clone(), item))
-        .collect()
-}
 
 /// What prose describes rests on the student's own earlier answers.
 const PROSE_FOLLOWS: bool = false;
@@ -62,13 +32,13 @@ fn stands(item: &ItemScore, own: Own) -> bool {
 
 #[test]
 fn the_program_marks_as_the_teacher_does() {
-    let lab = lab();
-    let reference = Reference::compute(&lab).expect("the embedded lab has a reference");
-    let catalogue = Catalogue::new(&lab, &reference);
+    let bench = Bench::embedded();
     let mut report = String::new();
     let mut disagreements = 0;
-    for sheet in teacher_marks::read(&lab) {
-        let items = marked(&lab, &reference, &catalogue, &sheet.file);
+    for sheet in teacher_marks::read(&bench.lab) {
+        let marks = items(bench.grade(&bench.handed_in(&sheet.file)));
+        let items: BTreeMap<String, ItemScore> =
+            marks.into_iter().map(|item| (item.id.clone(), item)).collect();
         for (id, Mark { given, program }) in &sheet.marks {
             let item = items.get(id).unwrap_or_else(|| panic!("{}: `{id}` was not marked", sheet.file));
             if agrees(item, program.as_ref().unwrap_or(given)) {
@@ -102,10 +72,10 @@ fn the_program_marks_as_the_teacher_does() {
 
 #[test]
 fn the_table_covers_every_file_and_criterion() {
-    let lab = lab();
-    let criteria: usize = lab.questions.iter().map(|question| question.criteria.len()).sum();
+    let bench = Bench::embedded();
+    let criteria = bench.all_criteria().count();
     let mut in_table = BTreeSet::new();
-    for sheet in teacher_marks::read(&lab) {
+    for sheet in teacher_marks::read(&bench.lab) {
         assert_eq!(sheet.marks.len(), criteria, "{}: criteria", sheet.file);
         let sum: Points = sheet.marks.values().map(|mark| mark.given.points).sum();
         assert_eq!(sum, sheet.total, "{}: sum of its marks, and its heading", sheet.file);
@@ -115,11 +85,6 @@ fn the_table_covers_every_file_and_criterion() {
         }
         assert!(in_table.insert(sheet.file.clone()), "{} stands twice in the table", sheet.file);
     }
-    let in_folder: BTreeSet<String> = fs::read_dir(folder())
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
-        .filter(|path| path.extension().is_some_and(|extension| extension == "yaml"))
-        .map(|path| path.file_stem().unwrap().to_string_lossy().into_owned())
-        .collect();
+    let in_folder: BTreeSet<String> = bench.class().into_iter().map(|submission| submission.id).collect();
     assert_eq!(in_table, in_folder, "files in the table, and files in submissions/");
 }

@@ -1,9 +1,11 @@
 //! Whole runs: the program and the library over files as people hand them in.
 
+mod bench;
 mod claims;
 mod class_marks;
 mod cli;
 mod conflicts;
+mod laws;
 mod marking_examples;
 mod numbers;
 mod plots;

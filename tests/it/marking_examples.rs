@@ -30,13 +30,10 @@
 //!
 //! The embedded lab is asked, or `small.yaml` or `oscillator.yaml` when the ids are its own.
 
-use polemark::grading::{self, Catalogue, ItemScore};
-use polemark::lab::{self, LabDefinition, Points};
-use polemark::reference::Reference;
-use polemark::source::SourceText;
-use polemark::submission::{self, Folder};
+use crate::bench::Bench;
+use polemark::grading::ItemScore;
+use polemark::lab::Points;
 use std::collections::BTreeSet;
-use std::path::PathBuf;
 
 const MANUAL: &str = include_str!("../../docs/marking.md");
 
@@ -47,55 +44,6 @@ const WITHOUT_EXAMPLE: &[(&str, &str)] =
 /// Codes no example can show.
 const WITHOUT_EXAMPLE_CODE: &[(&str, &str)] =
     &[("unmarked", "of what polemark itself fails on"), ("by_hand", "from the marks file")];
-
-/// A lab that is asked, with all that marking needs.
-pub struct Bench {
-    pub lab: LabDefinition,
-    pub reference: Reference,
-    pub catalogue: Catalogue,
-}
-
-impl Bench {
-    pub fn embedded() -> Self {
-        Self::new(lab::load(lab::DEFAULT).expect("the embedded lab is right"))
-    }
-
-    pub fn small() -> Self {
-        let text = SourceText::new("small.yaml", include_str!("small.yaml"));
-        Self::new(LabDefinition::parse(text).unwrap_or_else(|errors| panic!("small.yaml: {errors:#?}")))
-    }
-
-    pub fn oscillator() -> Self {
-        let text = SourceText::new("oscillator.yaml", include_str!("oscillator.yaml"));
-        Self::new(LabDefinition::parse(text).unwrap_or_else(|errors| panic!("oscillator.yaml: {errors:#?}")))
-    }
-
-    fn new(lab: LabDefinition) -> Self {
-        let reference = Reference::compute(&lab).expect("the lab has a reference");
-        let catalogue = Catalogue::new(&lab, &reference);
-        Self { lab, reference, catalogue }
-    }
-
-    /// Marks what an answer file has below `answers:`.
-    pub fn mark(&self, answers: &str) -> Vec<ItemScore> {
-        let file = format!("answers:\n{answers}");
-        let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("submissions");
-        let submission =
-            submission::read("example", "example.yaml", file.as_bytes(), &self.lab.sheet, &Folder(folder));
-        let scorecard = grading::grade(&self.lab, &self.reference, &self.catalogue, &submission, None);
-        scorecard.questions.into_iter().flat_map(|question| question.items).collect()
-    }
-
-    /// The criteria that `target` names: a criterion, a field, or a question.
-    fn criteria(&self, target: &str) -> Vec<&lab::Criterion> {
-        let all = || self.lab.questions.iter().flat_map(|question| &question.criteria);
-        let exact: Vec<_> = all().filter(|criterion| criterion.id == target).collect();
-        if !exact.is_empty() {
-            return exact;
-        }
-        all().filter(|criterion| criterion.field == target).collect()
-    }
-}
 
 /// What an example says of one criterion.
 #[derive(Debug, Default)]

@@ -1,6 +1,6 @@
 //! Values with their units and conventions, from the lab file to the mark.
 
-use crate::marking_examples::Bench;
+use crate::bench::Bench;
 use polemark::proof::prove;
 
 /// Its model answer is written in every unit it may be: `2 cm`, `785.4 ms`, `9.48 %`.
