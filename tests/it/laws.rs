@@ -78,7 +78,7 @@ fn answered_together(path: &str) -> &str {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 150, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn the_ledger_adds_up(submission in mixed()) {
@@ -337,7 +337,7 @@ fn corrupted(wrong: [Option<usize>; 5]) -> [i64; 5] {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 40, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn a_transfer_function_is_worth_the_same_in_every_spelling(
