@@ -442,6 +442,7 @@ fn key_question(question: &Question, kit: &super::kit::QuestionKit) -> KeyQuesti
                 reference_heading: super::answers::reference_heading(f.kind),
                 reference_html: f.reference_html.clone(),
                 conflicts: Vec::new(),
+                conflicts_title: "",
             })
             .collect(),
         criteria: question

@@ -51,11 +51,20 @@ pub fn of_field(
     (marks, views)
 }
 
+/// What stands above them.
+pub fn title(views: &[ConflictView]) -> &'static str {
+    match views.iter().flat_map(|view| &view.against).any(|against| against.own) {
+        true => "These words do not go with the numbers:",
+        false => "These words do not go with the reference:",
+    }
+}
+
 fn view(number: usize, words: &str, conflicts: &[&Conflict]) -> ConflictView {
     let start: String = words.chars().take(LONGEST).collect();
     let more = if start.len() < words.len() { "…" } else { "" };
     let claim = conflicts.first().map_or("", |conflict| conflict.claim.as_str());
     let against = conflicts.iter().map(|conflict| AgainstView {
+        own: conflict.own,
         who: if conflict.own { "Your own answer" } else { "Reference" },
         words_html: sentences(&sanitize(&conflict.against)),
     });

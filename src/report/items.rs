@@ -75,10 +75,15 @@ fn view(
     };
     // The reason says what the words were taken for; that is repeated only to tell quotations apart.
     let labelled = quotes.iter().any(|q| (q.stance, &q.concept) != (quotes[0].stance, &quotes[0].concept));
+    let credited = item.follow_through.as_ref().is_some_and(|follow| follow.credited);
+    let verdict = match item.verdict {
+        Verdict::Right if credited => VerdictView::follows(kept_words(item)),
+        verdict => VerdictView::of(verdict),
+    };
     let mut view = ItemView {
         anchor: item_anchor(&item.id),
         title: item.title.clone(),
-        verdict: VerdictView::of(item.verdict),
+        verdict,
         earned: item.earned.to_string(),
         possible: item.possible.to_string(),
         expected: typeset(&sanitize(&item.evidence.expected)),
@@ -106,14 +111,15 @@ fn view(
 fn follow(lab: &LabDefinition, item: &ItemScore, scorecard: &Scorecard) -> Option<FollowView> {
     let follow = item.follow_through.as_ref()?;
     let own = &follow.own;
-    let (class, words) = match (follow.credited, follow.guard) {
-        (true, _) => ("credited", kept_words(item)),
+    let words = match (follow.credited, follow.guard) {
+        (true, _) if item.verdict == Verdict::Right => String::new(),
+        (true, _) => kept_words(item),
         // That it does not follow either stands in the reason.
         (false, Guard::Passed) => return None,
-        (false, _) => ("refused", format!("{own} not followed")),
+        (false, _) => format!("{own} not followed"),
     };
     let root = places::find(lab, scorecard, &follow.root).map(|place| place.full());
-    Some(FollowView { class, words, root })
+    Some(FollowView { words, root })
 }
 
 /// What may have gone wrong on the way to a transfer function.

@@ -170,7 +170,7 @@ fn spared(lab: &LabDefinition, scorecard: &Scorecard) -> Vec<SparedView> {
 /// Why points were kept though the answer is wrong by the reference.
 pub fn kept_words(item: &ItemScore) -> String {
     match &item.follow_through {
-        Some(_) if item.code.ends_with(".same_mistake") => "the same mistake again".to_owned(),
+        Some(_) if item.code.ends_with(".same_mistake") => "the same mistake, charged once".to_owned(),
         Some(follow) => format!("right for {}", follow.own),
         None => "it follows from that".to_owned(),
     }

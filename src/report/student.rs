@@ -156,6 +156,7 @@ fn question(
             yours_html: answers::yours(answer, &field.prompt, &marks),
             reference_heading: answers::reference_heading(field.kind),
             reference_html: field.reference_html.clone(),
+            conflicts_title: conflicts::title(&conflicts),
             conflicts,
         };
         if answers::is_short(field.kind, answer.is_some()) {

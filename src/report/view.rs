@@ -5,6 +5,7 @@ use super::quotes::Quote;
 use crate::grading::{Tally, Verdict};
 use crate::lab::Points;
 use serde::Serialize;
+use std::borrow::Cow;
 
 /// A drawn figure.
 #[derive(Clone, Debug, Serialize)]
@@ -57,11 +58,11 @@ pub fn provisional_words(points: Points) -> String {
 }
 
 /// A verdict as symbol and word, never colour alone.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct VerdictView {
     pub class: &'static str,
     pub symbol: &'static str,
-    pub word: &'static str,
+    pub word: Cow<'static, str>,
     pub meaning: &'static str,
 }
 
@@ -75,7 +76,12 @@ impl VerdictView {
             Verdict::Unreadable => ("unreadable", "?", "unreadable", "written, but cannot be read"),
             Verdict::Unmarked => ("unmarked", "…", "unmarked", "a person has to mark it"),
         };
-        Self { class, symbol, word, meaning }
+        Self { class, symbol, word: word.into(), meaning }
+    }
+
+    /// Full points for what is right for an earlier answer only, `why` in words.
+    pub fn follows(why: String) -> Self {
+        Self { class: "right", symbol: "↪", word: why.into(), meaning: "" }
     }
 
     /// All of them, for the legend.
@@ -112,6 +118,7 @@ pub struct AnswerView {
     pub reference_html: String,
     /// Words of the answer that do not go with something else.
     pub conflicts: Vec<ConflictView>,
+    pub conflicts_title: &'static str,
 }
 
 /// Marked words of the answer, under their number.
@@ -127,6 +134,8 @@ pub struct ConflictView {
 /// What says otherwise.
 #[derive(Clone, Debug, Serialize)]
 pub struct AgainstView {
+    /// It is the student's own answer.
+    pub own: bool,
     /// `Your own answer`, `Reference`.
     pub who: &'static str,
     pub words_html: String,
@@ -151,8 +160,7 @@ pub struct BlankView {
 /// How an answer stands to an earlier one of the same student.
 #[derive(Clone, Debug, Serialize)]
 pub struct FollowView {
-    pub class: &'static str,
-    /// `right for your own transfer function`
+    /// `your own transfer function not followed`; empty when the verdict says it.
     pub words: String,
     /// Where that one lost its points.
     pub root: Option<LinkView>,
