@@ -141,10 +141,14 @@ impl Follower<'_> {
     fn own_function(&self) -> Option<(Premise, &[OwnModel])> {
         let function = self.function?;
         let (guard, ways) = function.model.get_or_init(|| {
-            let ways = OwnModel::ways(function.typed);
-            let short = ways.first().map_or(function.typed, |way| &way.function);
+            let truth = Truth::Reference(self.grader.reference).poles(function.of);
+            let asked = truth.iter().map(|one| one.denominator.degree()).max().unwrap_or(0);
+            let ways = OwnModel::ways(function.typed, asked + HIGHER);
             let tolerance = coefficient_tolerance(self.lab, function.of);
-            (guard::of_function(short, self.grader.reference, function.of, &tolerance), ways)
+            let guard = ways.first().map_or(Guard::Order, |short| {
+                guard::of_function(&short.function, self.grader.reference, function.of, &tolerance)
+            });
+            (guard, ways)
         });
         let root = function.root.clone();
         Some((self.premise(OWN_FUNCTION, function.question, function.field, root, *guard), ways))
@@ -208,7 +212,7 @@ impl Follower<'_> {
         }
         if premise.guard != Guard::Passed {
             let why = premise.why_refused();
-            let words = format!("It would follow from {name}, but {why}, so that cannot be followed.");
+            let words = format!("It would follow from {name}, but {why}, and so cannot be followed.");
             return Some(Mark { follow_through: follow_through(false), ..said(base, &words) });
         }
         let earned = share(own.earned, &self.criterion.follow_through);
@@ -246,9 +250,10 @@ impl Follower<'_> {
         let Field::Value(_, AnswerValue::Stability(word)) = self.grader.field(&self.criterion.field) else {
             return None;
         };
-        let function = self.own_function();
         // Too few poles say nothing of the rest.
         let telling = poles.as_ref().filter(|(premise, _)| premise.guard != Guard::Order);
+        let needed = self.base.verdict != Verdict::Right || telling.is_none();
+        let function = if needed { self.own_function() } else { None };
         let against = match (telling, &function) {
             (Some((premise, own)), _) => (!own.are(*word)).then(|| (premise, own.stability())),
             (None, Some((premise, ways))) => {
@@ -275,7 +280,15 @@ impl Follower<'_> {
         };
         let stands = |premise: &&&Premise| premise.root.is_none() || premise.guard == Guard::Passed;
         if let Some(premise) = premises.iter().find(stands).or(premises.first()) {
-            return right(premise);
+            let next = right(premise)?;
+            let credited = next.follow_through.as_ref().is_some_and(|followed| followed.credited);
+            return match against {
+                Some((other, says)) if credited && other.own == OWN_POLES => {
+                    let words = format!("By {}, though, it is {}.", other.name(), stability_name(says));
+                    Some(said(&next, &words))
+                }
+                _ => Some(next),
+            };
         }
         let (premise, says) = against?;
         let own = Accepted { differs: &[], what: &says };
@@ -324,6 +337,9 @@ impl Follower<'_> {
         None
     }
 }
+
+/// An own function is looked at when its degree is higher by this much, if only to say that it cannot be followed.
+const HIGHER: usize = 4;
 
 pub(super) const OWN_FUNCTION: &str = "your own transfer function";
 const OWN_POLES: &str = "your own poles";

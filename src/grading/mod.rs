@@ -11,6 +11,8 @@ mod cover;
 mod diagnosis;
 mod digits;
 mod follow_through;
+#[cfg(test)]
+mod follow_through_tests;
 mod grade;
 mod guard;
 mod hand_marks;

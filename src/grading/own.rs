@@ -20,16 +20,17 @@ pub(super) struct OwnModel {
 impl OwnModel {
     /// The ways to take `typed`: common factors cancelled, then as it stands where that is not the same.
     ///
-    /// A factor s left in the denominator is a pole at 0 for whoever lists the roots of what they wrote.
-    pub fn ways(typed: &TransferFunction) -> Vec<Self> {
+    /// A factor s left in the denominator is a pole at 0 for whoever lists the roots of what they wrote. Ways of a higher
+    /// degree than `most` are left out: nobody asked for them, and they could be made to take long.
+    pub fn ways(typed: &TransferFunction, most: usize) -> Vec<Self> {
         let clean = without_residue(typed).unwrap_or_else(|| typed.clone());
-        let mut ways = vec![Self::new(clean.cancelled().0)];
-        for other in [&clean, typed] {
-            if ways.iter().all(|way| way.function != *other) {
-                ways.push(Self::new(other.clone()));
+        let mut ways: Vec<TransferFunction> = Vec::new();
+        for way in [clean.cancelled().0, clean, typed.clone()] {
+            if !ways.contains(&way) && way.num.degree().max(way.den.degree()) <= most {
+                ways.push(way);
             }
         }
-        ways
+        ways.into_iter().map(Self::new).collect()
     }
 
     fn new(function: TransferFunction) -> Self {

@@ -6,6 +6,7 @@ mod class_marks;
 mod cli;
 mod conflicts;
 mod laws;
+mod ledger;
 mod marking_examples;
 mod numbers;
 mod plots;
