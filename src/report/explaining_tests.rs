@@ -95,7 +95,7 @@ fn the_ledger_says_where_each_point_went_and_what_was_spared() {
             "<td>left blank</td>",
             &format!("({} possible − {} earned)", card.total.possible, card.total.earned),
             "is charged there only. What rests on it kept 2 points:",
-            "Stability</a>: 1 point, right for your own transfer function",
+            "<li>Task 1, question 4, right for your own transfer function: <a href",
             "<span aria-hidden=\"true\">↪</span> right for your own transfer function</span> <strong>Stability</strong> <span class=\"muted\">see <a href=\"#item-hanging.transfer_function.denominator\">Task 1, question 3: Denominator</a></span>",
             "and was not charged again: 2 points were kept in Task 1, question 4 (",
         ],

@@ -44,11 +44,11 @@ pub struct SparedView {
     pub total: String,
 }
 
+/// What kept its points at one question for one reason.
 #[derive(Serialize)]
 pub struct KeptView {
-    pub item: LinkView,
-    /// `1 point`
-    pub points: String,
+    pub question: String,
+    pub items: Vec<(LinkView, String)>,
     /// `right for your own transfer function`
     pub why: String,
 }
@@ -146,20 +146,21 @@ fn spared(lab: &LabDefinition, scorecard: &Scorecard) -> Vec<SparedView> {
         else {
             continue;
         };
-        let kept = KeptView {
-            item: place.full(),
-            points: counted(spared.points, "point"),
-            why: kept_words(place.item),
-        };
+        let item = (place.title(), spared.points.to_string());
+        let (question, why) = (place.question.number.clone(), kept_words(place.item));
         match groups.iter_mut().find(|(id, ..)| *id == spared.root) {
             Some((_, points, group)) => {
-                group.kept.push(kept);
+                match group.kept.iter_mut().find(|kept| kept.question == question && kept.why == why) {
+                    Some(kept) => kept.items.push(item),
+                    None => group.kept.push(KeptView { question, items: vec![item], why }),
+                }
                 *points += spared.points;
                 group.total = counted(*points, "point");
             }
             None => {
                 let total = counted(spared.points, "point");
-                let group = SparedView { root: root.full(), kept: vec![kept], total };
+                let kept = vec![KeptView { question, items: vec![item], why }];
+                let group = SparedView { root: root.full(), kept, total };
                 groups.push((&spared.root, spared.points, group));
             }
         }
