@@ -49,7 +49,7 @@ fn complete(lab: &LabDefinition, scorecard: &Scorecard) -> Option<String> {
         (0, _) => None,
         (_, 0) => Some("Every question has all its points.".to_owned()),
         (full, missing) if missing < full => {
-            Some(format!("Every question has all its points but {}.", links(&rest)))
+            Some(format!("Every question but {} has all its points.", links(&rest)))
         }
         _ => Some(format!("All points for {}.", links(&full))),
     }
