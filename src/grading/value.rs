@@ -28,7 +28,9 @@ enum Truth {
 fn truth(features: &Features, kind: FeatureKind) -> Truth {
     let finite = |size: f64| if size.is_finite() { size.abs() } else { 0.0 };
     let extrema = features.extrema.iter().map(|extremum| finite(extremum.value));
-    let largest = extrema.fold(finite(features.initial_value), f64::max);
+    // A response that grows has no largest value: what is left of its zeros is that of numbers about 1.
+    let peak = features.peak.map_or(1.0, |peak| finite(peak.value));
+    let largest = extrema.fold(finite(features.initial_value).max(peak), f64::max);
     let slowest = features.slowest_time_constant_s.map_or(0.0, finite);
     let number = |value: f64, scale: f64| {
         let bound = COMPUTED_TO * value.abs() + RESIDUE * scale;
@@ -281,7 +283,7 @@ impl Question<'_> {
         unit: Option<&Unit>,
     ) -> Outcome {
         let with = one.with();
-        let shown = self.shown(want);
+        let expected = self.shown(want);
         let symbol = unit.map_or("", Unit::symbol);
         let typed = with_unit(&have.text, symbol);
         let ratios = match self.scale(unit) {
@@ -292,8 +294,8 @@ impl Question<'_> {
         };
         for ratio in &ratios {
             let how = match self.closeness(want, have, ratio) {
-                Closeness::Within => format!("within the tolerance of {shown}{with}"),
-                Closeness::Rounded => format!("{shown}{with}, correctly rounded"),
+                Closeness::Within => format!("within the tolerance of {expected}{with}"),
+                Closeness::Rounded => format!("{expected}{with}, correctly rounded"),
                 Closeness::Off => continue,
             };
             let reason = if *ratio == UnitRatio::one() {
@@ -303,16 +305,17 @@ impl Question<'_> {
             };
             return Outcome::new("right", reason);
         }
+        let is_nothing = shown(to_f64(&want.value), self.tolerance) == "0";
         let negative = Expected { value: -want.value.clone(), error_bound: want.error_bound.clone() };
         for ratio in &ratios {
-            if self.closeness(&negative, have, ratio).accepted() {
-                let reason = format!("The size is right, the sign is not: {shown} was expected.");
+            if !is_nothing && self.closeness(&negative, have, ratio).accepted() {
+                let reason = format!("The size is right, the sign is not: {expected} was expected.");
                 return Outcome::new("value.sign", reason);
             }
             for (words, other) in other_conventions(one.what, self.feature.kind) {
                 if self.closeness(&other.in_unit(&self.ratio), have, ratio).accepted() {
                     let asked = self.feature.kind.words();
-                    let reason = format!("{typed} is {words}; {asked} was asked, and that is {shown}.");
+                    let reason = format!("{typed} is {words}; {asked} was asked, and that is {expected}.");
                     return Outcome::new("value.other_convention", reason);
                 }
             }
@@ -324,14 +327,14 @@ impl Question<'_> {
             let (factor, _) = ratio.value();
             &have.value * factor - &want.value
         });
-        let by = off.filter(|_| !want.value.is_zero() && !shown.starts_with("0 ") && shown != "0");
+        let by = off.filter(|_| !is_nothing);
         let reason = match by {
             Some(off) => {
                 let part = off / &want.value;
                 let size = if part < Rational::ZERO { -part } else { part };
-                format!("It is off by {}: {shown} was expected.", percent(&size))
+                format!("It is off by {}: {expected} was expected.", percent(&size))
             }
-            None => format!("{shown} was expected."),
+            None => format!("{expected} was expected."),
         };
         Outcome::new("value.differs", reason)
     }
@@ -361,11 +364,8 @@ impl Question<'_> {
         };
         let asked = self.unit();
         Some(match (typed, asked) {
-            (Some(written), _) if meant.symbol() == asked => {
-                format!("{is}, but {} was written behind it; {shown} was expected.", written.symbol())
-            }
-            (Some(written), _) if written.symbol() != asked => {
-                format!("{is}, but {} was written behind it; {shown} was expected.", written.symbol())
+            (Some(typed), _) => {
+                format!("{is}, but {} was written behind it; {shown} was expected.", typed.symbol())
             }
             (_, "") => format!("{is}; it was asked as a pure number, {shown}."),
             _ => format!("{is}; it was asked in {asked}, where it is {shown}."),
@@ -409,7 +409,8 @@ fn without_article(quantity: &str) -> &str {
 mod tests {
     use super::super::closeness::tests::{tolerance, typed};
     use super::*;
-    use crate::algebra::Polynomial;
+    use crate::algebra::{Polynomial, parse_decimal};
+    use crate::grading::Verdict;
     use crate::lti::{Extremum, InputKind, Response, TransferFunction};
 
     /// A response with the features given, the others those of e^(-t).
@@ -484,6 +485,126 @@ mod tests {
             (PeriodS, 0.0, at_zero, number("1"), "value.differs"),
             (DampingRatio, 0.0, at_zero, number("1"), "value.none"),
             (DampingRatio, 0.0, at_zero, Unbounded, "right"),
+            // What rounding left of a zero moves no end.
+            (InitialValue, -1e-17, at_zero, number("0.001"), "right"),
+            (InitialValue, 1e-17, at_zero, number("-0.001"), "right"),
+            (InitialValue, 0.0, at_zero, number("0.0010001"), "value.differs"),
         ]);
+    }
+
+    fn judged(features: &[&Features], asked: &AskedFeature, text: &str, unit: Option<&str>) -> Mark {
+        let g = parse_decimal("9.8").unwrap();
+        let differs = [("g".to_owned(), "9.8".to_owned(), g)];
+        let accepted: Vec<_> = features
+            .iter()
+            .enumerate()
+            .map(|(i, what)| Accepted { differs: if i == 0 { &[] } else { &differs }, what: *what })
+            .collect();
+        let unit = unit.map(|unit| Unit::parse(unit).unwrap_or_else(|| Unit::named(unit)));
+        let answer = FinalValue::Number(Decimal::parse(text).unwrap(), unit);
+        judge(Points(50), &accepted, asked, &tolerance("0.001", "0.01", Some(2)), &answer)
+    }
+
+    /// Angles by π, exactly: 30° is 0.5235987…
+    #[test]
+    fn degrees_and_radians() {
+        let angle = features(-std::f64::consts::PI / 6.0, Limit::Value(0.0));
+        for (text, unit, code) in [
+            ("-0.5236", None, "right"),
+            ("-30", Some("deg"), "right"),
+            ("-30.3", Some("deg"), "right"),
+            ("-30.31", Some("deg"), "value.differs"),
+            ("-29.7", Some("deg"), "right"),
+            ("-29.69", Some("deg"), "value.differs"),
+            ("30", Some("deg"), "value.sign"),
+            ("-30", None, "value.other_unit"),
+            ("-523.6", Some("mrad"), "right"),
+            ("-0.08333", Some("rev"), "right"),
+            ("-30", Some("rad"), "value.other_unit"),
+            ("-0.5236", Some("deg"), "value.other_unit"),
+            ("-0.5236", Some("rad/(N·s)"), "right"),
+            ("-30", Some("deg/N"), "right"),
+            ("-0.5236", Some("m"), "value.unit"),
+            ("-0.5236", Some("%"), "value.unit"),
+            ("0", Some("m"), "value.differs"),
+        ] {
+            let mark = judged(&[&angle], &asked(FeatureKind::InitialValue), text, unit);
+            assert_eq!(mark.code, code, "{text} {unit:?}: {}", mark.evidence.reason);
+        }
+        let in_degrees = asked_in(FeatureKind::InitialValue, Some("deg"));
+        for (text, unit, code) in
+            [("-30", None, "right"), ("-0.5236", None, "value.other_unit"), ("-0.5236", Some("rad"), "right")]
+        {
+            let mark = judged(&[&angle], &in_degrees, text, unit);
+            assert_eq!(mark.code, code, "{text} {unit:?}: {}", mark.evidence.reason);
+        }
+        let expected = judged(&[&angle], &in_degrees, "1", None).evidence.expected;
+        assert_eq!(
+            expected,
+            "-30 deg; accepted from -30.3 to -29.7 deg (1 %), or the value correctly rounded to at least 2 figures."
+        );
+    }
+
+    /// Where the lab does not say what its output is measured in, or in a unit of its own.
+    #[test]
+    fn units_nobody_knows() {
+        let level = features(0.25, Limit::Value(0.0));
+        let unsaid =
+            AskedFeature { unit: None, native: None, also: Vec::new(), ..asked(FeatureKind::InitialValue) };
+        let counts = Some(Unit::named("counts"));
+        let own = AskedFeature { unit: counts.clone(), native: counts, ..unsaid.clone() };
+        for (asked, text, unit, code) in [
+            (&unsaid, "0.25", None, "right"),
+            (&unsaid, "0.25", Some("V"), "right"),
+            (&unsaid, "25", Some("cm"), "right"),
+            (&unsaid, "0.25", Some("cm"), "right"),
+            (&unsaid, "2.5", Some("cm"), "value.differs"),
+            (&own, "0.25", None, "right"),
+            (&own, "0.25", Some("counts"), "right"),
+            (&own, "0.25", Some("V"), "right"),
+            (&own, "25", None, "value.differs"),
+        ] {
+            let mark = judged(&[&level], asked, text, unit);
+            assert_eq!(mark.code, code, "{text} {unit:?}: {}", mark.evidence.reason);
+        }
+    }
+
+    /// The kindest of the accepted sets counts, and the most telling of the reasons is given.
+    #[test]
+    fn several_accepted_sets() {
+        let (main, other) = (features(2.0, Limit::Value(0.0)), features(3.0, Limit::Value(0.0)));
+        for (text, code, reason) in [
+            ("2", "right", "It is within the tolerance of 2 rad."),
+            ("3", "right", "It is within the tolerance of 3 rad with g = 9.8."),
+            ("-3", "value.sign", "The size is right, the sign is not: 3 rad was expected."),
+            (
+                "171.9",
+                "value.other_unit",
+                "171.9 is the value in deg; it was asked in rad, where it is 3 rad.",
+            ),
+            ("2.5", "value.differs", "It is off by 25 %: 2 rad was expected."),
+        ] {
+            let mark = judged(&[&main, &other], &asked(FeatureKind::InitialValue), text, None);
+            assert_eq!((mark.code, mark.evidence.reason.as_str()), (code, reason), "{text}");
+            assert!(mark.evidence.expected.ends_with("What follows from g = 9.8 is accepted too."));
+        }
+    }
+
+    /// The lab's part of the points, and whose verdict it is.
+    #[test]
+    fn what_the_other_convention_leaves() {
+        let decay = features(0.0, Limit::Value(0.0));
+        let five_percent = significant(decay.settling_time_5_percent_s.unwrap(), 6);
+        for (part, points, verdict) in
+            [("0", 0, Verdict::Wrong), ("0.5", 25, Verdict::Partly), ("1", 50, Verdict::Right)]
+        {
+            let part = parse_decimal(part).unwrap();
+            let asked = AskedFeature { other_convention: part, ..asked(FeatureKind::SettlingTime2PercentS) };
+            let mark = judged(&[&decay], &asked, &five_percent, None);
+            assert_eq!(
+                (mark.code, mark.earned, mark.verdict),
+                ("value.other_convention", Points(points), verdict)
+            );
+        }
     }
 }

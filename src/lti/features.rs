@@ -480,6 +480,55 @@ mod tests {
         );
     }
 
+    /// Step responses of ω_n² / (s² + 2ζω_n s + ω_n²) by the formulas of textbooks.
+    ///
+    /// Source: Ogata, *Modern Control Engineering*, 5th ed., eqs. 5-19 to 5-21 (rise time 0 to 100 %, peak time, overshoot);
+    /// Nise, *Control Systems Engineering*, 6th ed., fig. 4.16 (ω_n times rise time 10 to 90 %) and eq. 4.41 (the envelope's
+    /// settling time, which the curve's never exceeds).
+    #[test]
+    fn second_order_systems_of_the_textbooks() {
+        for (zeta, tenths, nise) in [
+            (0.1, 1, 1.104),
+            (0.2, 2, 1.203),
+            (0.3, 3, 1.321),
+            (0.4, 4, 1.463),
+            (0.5, 5, 1.638),
+            (0.6, 6, 1.854),
+            (0.7, 7, 2.126),
+            (0.8, 8, 2.467),
+            (0.9, 9, 2.883),
+        ] {
+            let zeta: f64 = zeta;
+            let what = format!("zeta {zeta}");
+            // ω_n = 5 rad/s: 2ζω_n is a whole number.
+            let den = Polynomial::from_integers(&[1, tenths, 25]);
+            let g = TransferFunction::new(Polynomial::from_integers(&[25]), den).unwrap();
+            let found = Features::of(&Response::new(&g, Step).unwrap());
+            let root = (1.0 - zeta * zeta).sqrt();
+            let damped = 5.0 * root;
+            let pi = std::f64::consts::PI;
+            close_option(&what, found.damping_ratio, Some(zeta));
+            close_option(&what, found.natural_frequency_rad_s, Some(5.0));
+            close_option(&what, found.damped_frequency_rad_s(), Some(damped));
+            close_option(&what, found.rise_time_0_100_s, Some((pi - zeta.acos()) / damped));
+            close_option(&what, found.peak.map(|peak| peak.time_s), Some(pi / damped));
+            close_option(&what, found.overshoot_percent, Some(100.0 * (-zeta * pi / root).exp()));
+            let rise = found.rise_time_10_90_s.unwrap() * 5.0;
+            assert!((rise - nise).abs() <= 0.0005, "{what}: {rise}, not {nise}");
+            for (share, settled) in
+                [(0.02, found.settling_time_2_percent_s), (0.05, found.settling_time_5_percent_s)]
+            {
+                let envelope = -(share * root).ln() / (zeta * 5.0);
+                // It enters the band at most half a swing before its envelope does.
+                let settled = settled.unwrap();
+                assert!(
+                    settled <= envelope && settled >= envelope - pi / damped,
+                    "{what}: {settled}, not {envelope}"
+                );
+            }
+        }
+    }
+
     #[test]
     fn peaks_at_the_start_and_without_extrema() {
         let decay = features(("3", "2 1"), Impulse);

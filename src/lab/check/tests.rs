@@ -509,3 +509,100 @@ cover:
     assert_eq!(lab.models[0].operating_points[0].at.values.len(), 2);
     assert!(lab.model_answer.answers.is_empty());
 }
+
+/// Keys for units and conventions, each with the line and column of what is wrong.
+#[test]
+fn units_and_conventions_are_checked() {
+    const LAB: &str = include_str!("../../../tests/it/oscillator.yaml");
+    assert!(parse(LAB).is_ok());
+    #[track_caller]
+    fn check(old: &str, new: &str, mark: &str, message: &str, help: &str) {
+        assert_eq!(LAB.matches(old).count(), 1, "`{old}` in the lab");
+        let text = LAB.replace(old, new);
+        let errors = parse(&text).unwrap_err();
+        let [finding] = errors.findings.as_slice() else { panic!("`{new}`: {:#?}", errors.findings) };
+        assert_eq!(
+            (finding.message.as_str(), finding.help.as_deref().unwrap_or_default()),
+            (message, help),
+            "`{new}`"
+        );
+        let start = text.find(new).unwrap() + new.find(mark).unwrap();
+        let line = text[..start].matches('\n').count() + 1;
+        let column = start - text[..start].rfind('\n').map_or(0, |end| end + 1) + 1;
+        let place = format!("lab.yaml:{line}:{column}");
+        let shown = finding.render(&errors.source, false);
+        assert!(shown.contains(&place), "{place} is not in\n{shown}");
+    }
+    check(
+        "unit: rad/s, prompt",
+        "unit: rads per fortnight, prompt",
+        "rads per",
+        "`rads per fortnight` is no unit known here",
+        "write `rad/s`, `Hz`, `deg`, `s`, `ms`, `m`, `cm`, `V`, `%`, …",
+    );
+    check(
+        "unit: rad/s, prompt",
+        "unit: s, prompt",
+        "s, prompt",
+        "`damped_frequency_rad_s` is a frequency, but it is asked for in `s`, the unit of a time",
+        "write `unit: rad/s`",
+    );
+    check(
+        "unit: cm, prompt",
+        "unit: '%', prompt",
+        "'%'",
+        "`final_value` is a length, but it is asked for in `%`, the unit of a ratio",
+        "write `unit: m`",
+    );
+    check(
+        "damping: {kind: value, prompt",
+        "damping: {kind: value, unit: rad, prompt",
+        "rad,",
+        "`damping_ratio` is a ratio, but it is asked for in `rad`, the unit of an angle",
+        "write `unit: 1`",
+    );
+    check(
+        "damping: {kind: value, prompt: Damping ratio.}",
+        "damping: {kind: value, prompt: Damping ratio.}\n      kind: {kind: stability, unit: s, prompt: Word., optional: true}",
+        "s, prompt: Word.",
+        "a unit is asked for in values, but `motion.kind` is of kind `stability`",
+        "remove `unit`",
+    );
+    check(
+        "response: step, feature: overshoot_percent",
+        "feature: overshoot_percent",
+        "overshoot_percent",
+        "an impulse response has no `overshoot_percent`",
+        "add `response: step`",
+    );
+    check(
+        "feature: period_s",
+        "feature: period_s, other_convention: 1",
+        "1",
+        "`other_convention` means nothing for `period_s`",
+        "remove it",
+    );
+    check(
+        "damped_frequency_rad_s, other_convention: 0.5",
+        "damped_frequency_rad_s, other_convention: 50",
+        "50",
+        "`other_convention` must be 0 to 1, not 50",
+        "0.01 is 1 %",
+    );
+    check(
+        "feature: overshoot_percent",
+        "feature: overshot_percent",
+        "overshot_percent",
+        "there is no feature `overshot_percent`",
+        "did you mean `overshoot_percent`?",
+    );
+    // A number is a unit of its own, where a ratio is asked for.
+    for (old, new) in [
+        ("damping: {kind: value, prompt", "damping: {kind: value, unit: '1', prompt"),
+        ("damping: {kind: value, prompt", "damping: {kind: value, unit: '%', prompt"),
+        ("overshoot: {kind: value, prompt", "overshoot: {kind: value, unit: 1, prompt"),
+        ("unit: rad/s, prompt", "unit: 1/s, prompt"),
+    ] {
+        assert!(parse(&LAB.replace(old, new)).is_ok(), "{new}");
+    }
+}
