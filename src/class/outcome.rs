@@ -1,3 +1,5 @@
+use crate::source::Finding;
+
 /// What became of a class, for the summary at the end.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outcome {
@@ -11,6 +13,8 @@ pub struct Outcome {
     pub possible: f64,
     /// Ids in the marks file that nobody in the class has.
     pub marks_without_submission: Vec<String>,
+    /// Decisions of the marks file about groups of like answers that no answer is in.
+    pub decisions_without_answers: Vec<Finding>,
     /// (id, files) of student ids that more than one file gives.
     pub ids_given_twice: Vec<(String, Vec<String>)>,
     /// Reports of an earlier run that still lie in the folder.

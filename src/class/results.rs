@@ -1,5 +1,5 @@
 use super::Marked;
-use crate::grading::{Cause, Diagnosis, FollowThrough, Ledger};
+use crate::grading::{Cause, Conflict, Diagnosis, FollowThrough, Ledger};
 use crate::source::Severity;
 use serde::Serialize;
 
@@ -33,7 +33,9 @@ pub fn results_line(marked: &Marked) -> Result<String, serde_json::Error> {
                     expected: &item.evidence.expected,
                     found: &item.evidence.found,
                     reason: &item.evidence.reason,
+                    conflicts: item.evidence.conflicts.iter().map(ConflictView::of).collect(),
                 },
+                alike: item.alike.as_deref(),
                 line: item.position.map(|p| p.line),
                 column: item.position.map(|p| p.column),
                 diagnosis: item.diagnosis.as_ref().map(DiagnosisView::of),
@@ -93,6 +95,7 @@ struct Item<'a> {
     verdict: &'static str,
     code: &'static str,
     provisional: bool,
+    alike: Option<&'a str>,
     evidence: EvidenceView<'a>,
     line: Option<usize>,
     column: Option<usize>,
@@ -181,6 +184,20 @@ struct EvidenceView<'a> {
     expected: &'a str,
     found: &'a str,
     reason: &'a str,
+    conflicts: Vec<ConflictView<'a>>,
+}
+
+#[derive(Serialize)]
+struct ConflictView<'a> {
+    claim: &'a str,
+    against: &'a str,
+    own: bool,
+}
+
+impl<'a> ConflictView<'a> {
+    fn of(conflict: &'a Conflict) -> Self {
+        Self { claim: &conflict.claim, against: &conflict.against, own: conflict.own }
+    }
 }
 
 #[derive(Serialize)]

@@ -121,6 +121,7 @@ pub fn grade_class(job: &ClassJob<'_>, progress: &dyn Fn(usize)) -> Result<Outco
     outcome.older_reports = older_reports(job.out, &statistics);
     if let Some(marks) = job.marks {
         outcome.marks_without_submission = statistics.absent(marks.student_ids());
+        outcome.decisions_without_answers = marks.decisions_without_answers(statistics.groups());
     }
     let index = NewFile::create(job.out.join("index.html"))?;
     index.write_all(job.kit.class_page(&statistics.summary(job.lab)).as_bytes())?;
@@ -136,7 +137,7 @@ fn older_reports(out: &Path, statistics: &Statistics) -> usize {
 
 /// Group members who were given different marks by hand (a viva each, say) are marked and reported one by one.
 fn by_hand_marks(submission: Submission, marks: Option<&HandMarksFile>) -> Vec<Submission> {
-    let given = |student: &Student| marks.and_then(|file| file.student(&student.id));
+    let given = |student: &Student| marks.map(|file| file.marks_for(&student.id));
     let alike = submission.students.windows(2).all(|pair| given(&pair[0]) == given(&pair[1]));
     if alike {
         return vec![submission];
@@ -198,7 +199,7 @@ fn mark_and_write(
     report: String,
 ) -> Result<Marked, ClassError> {
     // Members of a group that are still together were given the same.
-    let marks = job.marks.and_then(|file| file.student(&submission.students.first()?.id));
+    let marks = job.marks.and_then(|file| Some(file.marks_for(&submission.students.first()?.id)));
     let mut failed = submission.findings.iter().any(|f| f.code == our_failure().code);
     let marking = AssertUnwindSafe(|| grade(job.lab, job.reference, job.catalogue, &submission, marks));
     let scorecard = match catch_unwind(marking) {

@@ -3,7 +3,7 @@ use super::outcome::Outcome;
 use crate::grading::{ItemScore, Verdict};
 use crate::lab::{LabDefinition, Points};
 use crate::report::{ClassRow, ClassSummary, QuestionMean, ReviewEntry, item_anchor};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What the class page and the summary need, gathered one submission at a time.
 pub struct Statistics {
@@ -12,6 +12,10 @@ pub struct Statistics {
     /// Points earned by all, per question of the lab.
     earned: Vec<Points>,
     student_ids: BTreeSet<String>,
+    /// (criterion, group) of every like answer.
+    groups: BTreeSet<(String, String)>,
+    /// The field each criterion judges.
+    fields: BTreeMap<String, String>,
     reports: BTreeSet<String>,
     outcome: Outcome,
     total: Points,
@@ -24,6 +28,13 @@ impl Statistics {
             review: Vec::new(),
             earned: vec![Points::ZERO; lab.questions.len()],
             student_ids: BTreeSet::new(),
+            groups: BTreeSet::new(),
+            fields: lab
+                .questions
+                .iter()
+                .flat_map(|question| &question.criteria)
+                .map(|criterion| (criterion.id.clone(), criterion.field.clone()))
+                .collect(),
             reports: BTreeSet::new(),
             outcome: Outcome::default(),
             total: Points::ZERO,
@@ -43,7 +54,10 @@ impl Statistics {
         self.outcome.unreadable += usize::from(!submission.readable);
         self.outcome.failed += usize::from(marked.failed);
         let waiting = self.review.len();
-        self.review.extend(review_entries(marked));
+        self.review.extend(review_entries(marked, &self.fields));
+        let items = card.questions.iter().flat_map(|question| &question.items);
+        let groups = items.filter_map(|item| Some((item.id.clone(), item.alike.clone()?)));
+        self.groups.extend(groups);
         self.outcome.to_review += usize::from(self.review.len() > waiting);
         self.rows.push(ClassRow {
             students: submission.students.clone(),
@@ -82,6 +96,11 @@ impl Statistics {
         ids.filter(|id| !self.student_ids.contains(*id)).map(str::to_owned).collect()
     }
 
+    /// (criterion, group) of every like answer of the class.
+    pub fn groups(&self) -> &BTreeSet<(String, String)> {
+        &self.groups
+    }
+
     /// Whether this run wrote the report of this name, relative to the output folder.
     pub fn has_report(&self, report: &str) -> bool {
         self.reports.contains(report)
@@ -94,7 +113,10 @@ impl Statistics {
 }
 
 /// One entry a criterion that waits for a person.
-fn review_entries(marked: &Marked) -> impl Iterator<Item = ReviewEntry> {
+fn review_entries<'a>(
+    marked: &'a Marked,
+    fields: &'a BTreeMap<String, String>,
+) -> impl Iterator<Item = ReviewEntry> + 'a {
     let names: Vec<&str> = marked
         .submission
         .students
@@ -110,7 +132,41 @@ fn review_entries(marked: &Marked) -> impl Iterator<Item = ReviewEntry> {
         why: why(item).to_owned(),
         earned: item.earned,
         possible: item.possible,
+        alike: item.alike.clone(),
+        found: found(item),
+        conflicts: conflicts(item),
+        example: fields.get(&item.id).map_or_else(String::new, |field| beginning(marked, field)),
     })
+}
+
+/// The words that were found, when the answer is prose.
+fn found(item: &ItemScore) -> String {
+    if item.evidence.phrases.is_empty() { String::new() } else { item.evidence.found.clone() }
+}
+
+/// What does not go with the numbers, each once: `it is stable: Your pole 2 lies in the right half-plane.`
+fn conflicts(item: &ItemScore) -> Vec<String> {
+    let mut all: Vec<String> = Vec::new();
+    for conflict in &item.evidence.conflicts {
+        let one = format!("{}: {}", conflict.claim, conflict.against);
+        if !all.contains(&one) {
+            all.push(one);
+        }
+    }
+    all
+}
+
+/// As much of the answer as tells what it is like.
+fn beginning(marked: &Marked, field: &str) -> String {
+    const LETTERS: usize = 200;
+    let Some(answer) = marked.submission.answers.get(field) else { return String::new() };
+    let text = answer.read_as();
+    let mut words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    if let Some((end, _)) = words.char_indices().nth(LETTERS) {
+        words.truncate(end);
+        words.push('…');
+    }
+    words
 }
 
 /// Why a person should look, by the kind of answer.

@@ -37,7 +37,8 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let (lab, reference) = load_with_reference(arguments.lab.as_deref())?;
-    let marks = arguments.marks.as_deref().map(|path| load_marks(path, &lab)).transpose()?;
+    let given = arguments.marks.as_deref().map(|path| load_marks(path, &lab)).transpose()?;
+    let marks = given.as_ref().map(|(marks, _)| marks);
     let files = find_answer_files(&arguments.paths, arguments.marks.as_deref())?;
     let catalogue = Catalogue::new(&lab, &reference);
     let kit = ReportKit::new(&lab, &reference)?;
@@ -47,13 +48,18 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         reference: &reference,
         catalogue: &catalogue,
         kit: &kit,
-        marks: marks.as_ref(),
+        marks,
         files: &files,
         out: &arguments.out,
         threads: arguments.threads,
     };
     let outcome = grade_class(&job, &|done| bar.set_position(done as u64))?;
     bar.finish_and_clear();
+    if let Some((_, source)) = &given {
+        for finding in &outcome.decisions_without_answers {
+            eprintln!("{}", finding.render(source, colour_on_stderr()));
+        }
+    }
     print!("{}", summary(&outcome, &arguments.out));
     Ok(match &outcome {
         outcome if outcome.failed > 0 => ExitCode::from(OURS),
@@ -63,7 +69,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
 }
 
 /// A marks file with an error in it would lose a person's mark: nothing is graded until it is mended.
-fn load_marks(path: &Path, lab: &LabDefinition) -> Result<HandMarksFile, Failure> {
+fn load_marks(path: &Path, lab: &LabDefinition) -> Result<(HandMarksFile, SourceText), Failure> {
     let text =
         std::fs::read_to_string(path).map_err(|error| Failure::Read { path: path.to_path_buf(), error })?;
     let source = SourceText::new(path.to_string_lossy(), text);
@@ -77,7 +83,7 @@ fn load_marks(path: &Path, lab: &LabDefinition) -> Result<HandMarksFile, Failure
         return Err(Failure::Marks { rendered });
     }
     eprint!("{rendered}");
-    Ok(marks)
+    Ok((marks, source))
 }
 
 fn progress_bar(submissions: usize) -> ProgressBar {

@@ -6,10 +6,10 @@ use super::plot::{Demands, Target};
 use super::same_mistake::spare;
 use super::truth::Truth;
 use super::{
-    Catalogue, HandMarks, ItemScore, Ledger, Override, QuestionScore, Scorecard, Tally, Verdict, concepts,
-    cover, nonlinearity, plot, poles, shape, stability, transfer_function, value,
+    Catalogue, HandMarks, ItemScore, Ledger, Override, QuestionScore, Scorecard, Tally, Verdict, alike,
+    concepts, cover, nonlinearity, plot, poles, shape, stability, transfer_function, value,
 };
-use crate::lab::{Check, Criterion, Curve, LabDefinition, Points, Question, SystemRef};
+use crate::lab::{Check, Criterion, Curve, LabDefinition, Question, SystemRef};
 use crate::reference::{Reference, ResponseReference};
 use crate::submission::{Answer, AnswerValue, Figure, Series, Submission, Unreadable};
 
@@ -26,8 +26,9 @@ pub fn grade(
 ) -> Scorecard {
     let grader = Grader { reference, catalogue, submission };
     let mut marks: Vec<Vec<Mark>> = lab.questions.iter().map(|asked| grader.question(asked)).collect();
-    let earned =
-        |criterion: &Criterion, mark: &Mark| given(criterion, hand).map_or(mark.earned, |given| given.points);
+    let earned = |criterion: &Criterion, mark: &Mark| {
+        given(criterion, None, hand).map_or(mark.earned, |given| given.points)
+    };
     spare(lab, &earned, &mut marks);
     follow(lab, &grader, &earned, &mut marks);
     note_conflicts(lab, &grader, &mut marks);
@@ -88,7 +89,8 @@ fn item_score(
     submission: &Submission,
     hand: Option<&HandMarks>,
 ) -> ItemScore {
-    let given = given(criterion, hand);
+    let mark = Mark { alike: alike::group(criterion, &mark, submission), ..mark };
+    let given = given(criterion, mark.alike.as_deref(), hand);
     let mark = match given {
         Some(given) => Mark { follow_through: None, ..given.apply(criterion.points, mark) },
         None => mark,
@@ -111,9 +113,12 @@ fn item_score(
 }
 
 /// What a person gave in place of our mark.
-fn given<'a>(criterion: &Criterion, hand: Option<&'a HandMarks>) -> Option<&'a Override> {
-    let given = hand?.items.get(&criterion.id)?;
-    (Points::ZERO..=criterion.points).contains(&given.points).then_some(given)
+fn given<'a>(
+    criterion: &Criterion,
+    alike: Option<&str>,
+    hand: Option<&'a HandMarks>,
+) -> Option<&'a Override> {
+    hand?.given(&criterion.id, criterion.points, alike)
 }
 
 /// Where the answer stands: for a plot, its data before its figure.
@@ -361,7 +366,7 @@ fn unreadable_file(expected: String, submission: &Submission) -> Mark {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{self, CoverSource};
+    use crate::lab::{self, CoverSource, Points};
     use crate::submission::{NoFiles, read};
     use std::sync::OnceLock;
 
@@ -531,6 +536,7 @@ mod tests {
                 ("saturation.plot".to_owned(), given(9_999)),
             ]
             .into(),
+            ..HandMarks::default()
         };
         let card = card("  expect_hanging: It swings.\n", Some(&hand));
         let settles = item(&card, "expect_hanging.settles");

@@ -4,7 +4,11 @@ use crate::algebra::{Rational, parse_decimal};
 use crate::lab::{CoverSource, LabDefinition, Points};
 use crate::names::nearest;
 use crate::source::{self, Finding, Node, Severity, SourceText, Span, Value, sanitize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// A person's decisions for groups of like answers: by criterion id, then by the group's id.
+pub type AlikeMarks = BTreeMap<String, BTreeMap<String, Override>>;
 
 /// What a person gave one student. Nothing here is ever written by polemark.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
@@ -15,6 +19,18 @@ pub struct HandMarks {
     pub observed: BTreeMap<String, Points>,
     /// Criteria whose mark a person has decided, by criterion id.
     pub items: BTreeMap<String, Override>,
+    /// Decisions for like answers of the whole class: for what is not in `items`.
+    pub alike: Arc<AlikeMarks>,
+}
+
+impl HandMarks {
+    /// What a person gave for a criterion worth `most`: for this student's answer, else for answers like it. Points out of
+    /// range are not given.
+    pub(super) fn given(&self, criterion: &str, most: Points, alike: Option<&str>) -> Option<&Override> {
+        let of_group = || self.alike.get(criterion)?.get(alike?);
+        let in_range = |given: &&Override| (Points::ZERO..=most).contains(&given.points);
+        self.items.get(criterion).filter(in_range).or_else(|| of_group().filter(in_range))
+    }
 }
 
 /// A mark by a person, and why.
@@ -40,11 +56,33 @@ impl Override {
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct HandMarksFile {
     students: BTreeMap<String, HandMarks>,
+    /// What holds for whoever is not listed.
+    others: HandMarks,
+    /// Where the decisions for groups stand: (criterion, group).
+    groups: BTreeMap<(String, String), Span>,
 }
 
 impl HandMarksFile {
     pub fn student(&self, id: &str) -> Option<&HandMarks> {
         self.students.get(id)
+    }
+
+    /// What counts for a student, listed or not.
+    pub fn marks_for(&self, id: &str) -> &HandMarks {
+        self.students.get(id).unwrap_or(&self.others)
+    }
+
+    /// A warning for each decision about a group that is not among `groups`, the (criterion, group) of a class's answers.
+    pub fn decisions_without_answers(&self, groups: &BTreeSet<(String, String)>) -> Vec<Finding> {
+        let nobody = self.groups.iter().filter(|(group, _)| !groups.contains(*group));
+        let finding = |((criterion, group), span): (&(String, String), &Span)| {
+            let message =
+                format!("No answer of this class is in the group {} of `{criterion}`.", quoted(group));
+            Finding::warning("marks.alike_nobody", message)
+                .with_help("The class page lists the groups; they change with the answers and with the lab's phrases.")
+                .at(*span)
+        };
+        nobody.map(finding).collect()
     }
 
     /// In alphabetical order.
@@ -64,6 +102,9 @@ impl HandMarks {
     ///     observed: {realization: 4}
     ///     items:
     ///       hanging.response.plot: {points: 0.5, reason: "axes without units"}
+    /// alike:
+    ///   expect_hanging.settles:
+    ///     text-3f2a91c0: {points: 1, reason: "says so in other words"}
     /// ```
     pub fn parse(source: &SourceText, lab: &LabDefinition) -> (HandMarksFile, Vec<Finding>) {
         let mut reader = Reader { allowed: Allowed::new(lab), findings: Vec::new() };
@@ -116,7 +157,10 @@ impl Reader<'_> {
 
     fn file(&mut self, node: &Node) -> HandMarksFile {
         let mut file = HandMarksFile::default();
-        for (key, span, value) in self.mapping(node, "A marks file has the keys `lab` and `students`.") {
+        let mut alike = AlikeMarks::new();
+        for (key, span, value) in
+            self.mapping(node, "A marks file has the keys `lab`, `students` and `alike`.")
+        {
             match key.as_str() {
                 "lab" => self.lab(value),
                 "students" => {
@@ -134,10 +178,41 @@ impl Reader<'_> {
                         }
                     }
                 }
-                _ => self.unknown(key, *span, &["lab", "students"], "key"),
+                "alike" => alike = self.alike(value, &mut file.groups),
+                _ => self.unknown(key, *span, &["lab", "students", "alike"], "key"),
             }
         }
+        let alike = Arc::new(alike);
+        file.others.alike = Arc::clone(&alike);
+        for marks in file.students.values_mut() {
+            marks.alike = Arc::clone(&alike);
+        }
         file
+    }
+
+    /// Decisions for groups, and in `places` where each stands.
+    fn alike(&mut self, node: &Node, places: &mut BTreeMap<(String, String), Span>) -> AlikeMarks {
+        let mut alike = AlikeMarks::new();
+        let known = self.allowed.items.keys().map(|id| (*id).to_owned()).collect::<Vec<_>>();
+        for (criterion, span, groups) in
+            self.mapping(node, "Under `alike` stand criteria, each with its groups.")
+        {
+            let Some(most) = self.allowed.items.get(criterion.as_str()).copied() else {
+                self.unknown(criterion, *span, &known, "criterion");
+                continue;
+            };
+            let wanted = "Under a criterion stand groups of like answers with points and a reason.";
+            for (group, span, value) in self.mapping(groups, wanted) {
+                let name = format!("{criterion}/{group}");
+                let Some(given) = self.item(value, *span, most, &name) else { continue };
+                if places.insert((criterion.clone(), group.clone()), *span).is_some() {
+                    let message = format!("The group {} of `{criterion}` is decided twice.", quoted(group));
+                    self.report(Some(*span), "marks.twice", message, Some("Keep one.".to_owned()));
+                }
+                alike.entry(criterion.clone()).or_default().insert(group.clone(), given);
+            }
+        }
+        alike
     }
 
     fn lab(&mut self, node: &Node) {
@@ -384,6 +459,19 @@ mod tests {
                 "1:24 marks.points_missing ",
             ),
             ("students: {A: {items: {battery.nonlinearity.class: 1}}}", "1:52 marks.shape "),
+            ("alike: [1]", "1:8 marks.shape "),
+            (
+                "alike: {expect_hanging.settle: {}}",
+                "1:9 marks.unknown There is no criterion `expect_hanging.settle`. Did you mean `expect_hanging.settles`?",
+            ),
+            ("alike: {expect_hanging.settles: 1}", "1:33 marks.shape Under a criterion stand groups"),
+            ("alike: {expect_hanging.settles: {text-1: 1}}", "1:42 marks.shape A criterion takes"),
+            (
+                "alike: {expect_hanging.settles: {text-1: {points: 2, reason: x}}}",
+                "1:51 marks.points_out_of_range 2 points for `expect_hanging.settles/text-1` are not between 0 and 1.",
+            ),
+            ("alike: {expect_hanging.settles: {text-1: {points: 1}}}", "1:34 marks.reason_missing "),
+            ("alike: {expect_hanging.settles: {text-1: {reason: x}}}", "1:34 marks.points_missing "),
             ("students: {A: {viva: 1}", "1:"),
         ]);
     }

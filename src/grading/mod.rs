@@ -3,6 +3,7 @@
 //! One file a kind of criterion. How each of them decides, with examples, is in `docs/marking.md`.
 
 mod accepted;
+mod alike;
 mod catalogue;
 mod claims;
 mod closeness;
@@ -39,7 +40,7 @@ pub use diagnosis::{Diagnosis, EquationPlace, Explanation};
 pub use follow_through::FollowThrough;
 pub use grade::{grade, leave_to_a_person};
 pub use guard::Guard;
-pub use hand_marks::{HandMarks, HandMarksFile, Override};
+pub use hand_marks::{AlikeMarks, HandMarks, HandMarksFile, Override};
 pub use ledger::{Cause, Ledger, Loss, Spared};
 pub use scorecard::*;
 

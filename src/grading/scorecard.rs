@@ -98,7 +98,7 @@ pub struct ItemScore {
     pub diagnosis: Option<Diagnosis>,
     /// Of an answer that is not right by the reference and rests on an earlier one: how it stands to that.
     pub follow_through: Option<FollowThrough>,
-    /// The group of like answers that one decision of a person can serve; `None` when nobody need decide.
+    /// The group of like answers that one decision of a person can serve, or served; `None` where polemark decided.
     pub alike: Option<String>,
     /// To be confirmed by a person.
     pub provisional: bool,

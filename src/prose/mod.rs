@@ -10,4 +10,4 @@ mod words;
 pub use claims::{Claim, ClaimKind, Quantity, claims};
 pub use number::ClaimedNumber;
 pub use phrase::{Phrase, Said};
-pub use words::{Gap, Token, sentences};
+pub use words::{Gap, Token, normalized, sentences};

@@ -52,6 +52,15 @@ pub fn sentences(text: &str) -> Vec<Vec<Token>> {
     sentences
 }
 
+/// The words of `text` one space apart: what is left when capitals, punctuation and line ends make no difference.
+pub fn normalized(text: &str) -> String {
+    let word = |token: &Token| match token.text.as_str() {
+        FORMULA => text.get(token.span.start..token.span.end).unwrap_or_default().to_owned(),
+        word => word.to_owned(),
+    };
+    words(text).iter().map(word).collect::<Vec<_>>().join(" ")
+}
+
 /// The words of `text` in order.
 pub fn words(text: &str) -> Vec<Token> {
     let mut found = Vec::new();
@@ -259,6 +268,19 @@ mod tests {
             ("$", ""),
             ("'' . - $$ \u{0}", ""),
         ]);
+    }
+
+    #[test]
+    fn capitals_and_punctuation_make_no_difference() {
+        for (one, other, same) in [
+            ("It swings,\nthen stops.", "it swings - then STOPS!", true),
+            ("It doesn't", "it does not", true),
+            ("about $x = 0$", "About $x = 0$.", true),
+            ("about $x = 0$", "about $x = 1$", false),
+            ("it swings", "it stops", false),
+        ] {
+            assert_eq!(normalized(one) == normalized(other), same, "{one:?} {other:?}");
+        }
     }
 
     #[test]

@@ -9,6 +9,7 @@ use super::view::{BarView, FigureView, provisional_words};
 use crate::lab::Points;
 use crate::source::sanitize;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 #[derive(Serialize)]
 pub struct ClassPage {
@@ -20,6 +21,7 @@ pub struct ClassPage {
     questions: Vec<MeanView>,
     review: Vec<ReviewGroup>,
     review_words: String,
+    alike_words: String,
     rows: Vec<RowView>,
 }
 
@@ -39,6 +41,22 @@ struct ReviewGroup {
     why: String,
     amount: String,
     /// Long lists start closed.
+    open: bool,
+    /// The largest first.
+    groups: Vec<AlikeView>,
+}
+
+/// Answers that one decision can serve; answers on their own at the end.
+#[derive(Serialize)]
+struct AlikeView {
+    /// As `alike:` of the marks file names it; empty for answers on their own.
+    id: String,
+    amount: String,
+    /// The words found, quoted.
+    found: String,
+    conflicts: Vec<String>,
+    /// How one of the answers begins.
+    example: String,
     open: bool,
     entries: Vec<EntryView>,
 }
@@ -84,6 +102,11 @@ pub fn page(kit: &ReportKit, summary: &ClassSummary) -> ClassPage {
                 counted(review.len(), "criterion").replace("criterions", "criteria")
             ),
         },
+        alike_words: if review.iter().any(|group| group.groups.iter().any(|like| !like.id.is_empty())) {
+            "Like answers stand together: below `alike:` in the marks file, one decision serves all of a group.".to_owned()
+        } else {
+            String::new()
+        },
         review,
         rows: summary.rows.iter().map(row).collect(),
     }
@@ -123,19 +146,14 @@ fn mean(kit: &ReportKit, mean: &QuestionMean) -> MeanView {
 
 /// Entries of the same criterion and the same reason together, in the order of their first.
 fn review(kit: &ReportKit, entries: &[ReviewEntry]) -> Vec<ReviewGroup> {
-    const OPEN: usize = 8;
-    let mut groups: Vec<(&ReviewEntry, Vec<EntryView>)> = Vec::new();
-    let mut places = std::collections::BTreeMap::new();
+    let mut groups: Vec<(&ReviewEntry, Vec<&ReviewEntry>)> = Vec::new();
+    let mut places = BTreeMap::new();
     for entry in entries {
         let place = *places.entry((&entry.item, &entry.why)).or_insert(groups.len());
         if place == groups.len() {
             groups.push((entry, Vec::new()));
         }
-        groups[place].1.push(EntryView {
-            student: sanitize(&entry.student),
-            link: entry.link.clone(),
-            marks: format!("{} of {}", entry.earned, entry.possible),
-        });
+        groups[place].1.push(entry);
     }
     groups
         .into_iter()
@@ -150,10 +168,45 @@ fn review(kit: &ReportKit, entries: &[ReviewEntry]) -> Vec<ReviewGroup> {
                 why: first.why.clone(),
                 amount: counted(entries.len(), "mark"),
                 open: entries.len() <= OPEN,
-                entries,
+                groups: alike(&entries),
             }
         })
         .collect()
+}
+
+/// More answers than these start closed.
+const OPEN: usize = 8;
+
+/// Like answers together, by the group's id, so that files may be named as they will.
+fn alike(entries: &[&ReviewEntry]) -> Vec<AlikeView> {
+    let mut groups: BTreeMap<Option<&str>, Vec<&ReviewEntry>> = BTreeMap::new();
+    for entry in entries {
+        groups.entry(entry.alike.as_deref()).or_default().push(entry);
+    }
+    let mut groups: Vec<_> = groups.into_iter().collect();
+    groups.sort_by_key(|(id, entries)| (id.is_none(), usize::MAX - entries.len()));
+    groups.into_iter().map(|(id, entries)| alike_view(id, &entries)).collect()
+}
+
+fn alike_view(id: Option<&str>, entries: &[&ReviewEntry]) -> AlikeView {
+    // What is said of one holds for all of a group, and for none of those on their own.
+    let first = id.and(entries.first());
+    AlikeView {
+        id: id.unwrap_or_default().to_owned(),
+        amount: counted(entries.len(), "answer"),
+        found: first.map_or_else(String::new, |one| sanitize(&one.found)),
+        conflicts: first.map_or_else(Vec::new, |one| one.conflicts.iter().map(|c| sanitize(c)).collect()),
+        example: first.map_or_else(String::new, |one| sanitize(&one.example)),
+        open: entries.len() <= OPEN,
+        entries: entries
+            .iter()
+            .map(|entry| EntryView {
+                student: sanitize(&entry.student),
+                link: entry.link.clone(),
+                marks: format!("{} of {}", entry.earned, entry.possible),
+            })
+            .collect(),
+    }
 }
 
 fn row(row: &ClassRow) -> RowView {

@@ -57,4 +57,12 @@ pub struct ReviewEntry {
     pub why: String,
     pub earned: Points,
     pub possible: Points,
+    /// The group of like answers one decision can serve; none of another group has this id.
+    pub alike: Option<String>,
+    /// The words found in prose, quoted; empty where there are none.
+    pub found: String,
+    /// What of the prose does not go with the numbers, a sentence each.
+    pub conflicts: Vec<String>,
+    /// How the answer begins. The student's own text: hostile until escaped.
+    pub example: String,
 }

@@ -292,6 +292,10 @@ fn three_thousand_submissions_make_a_lean_class_page() {
         why: "prose is judged by its words".into(),
         earned: Points(50),
         possible: Points(100),
+        alike: (i % 3 > 0).then(|| format!("said-0000000{}", i % 3)),
+        found: "“swings”, “<b>”".into(),
+        conflicts: vec!["it is stable: Your pole 2 lies in the right half-plane.".into()],
+        example: "It swings.</q><script>".into(),
     };
     let summary = ClassSummary {
         rows: rows.collect(),
@@ -302,6 +306,7 @@ fn three_thousand_submissions_make_a_lean_class_page() {
     check_page("class", &html);
     assert!(html.len() < 3_000 * 600, "{} bytes", html.len());
     assert!(html.contains("3000 marks on 1 criterion wait for a person"));
+    assert!(html.contains("<code>said-00000001</code> 1000 answers, with “swings”"));
 }
 
 #[test]

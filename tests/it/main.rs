@@ -1,5 +1,6 @@
 //! Whole runs: the program and the library over files as people hand them in.
 
+mod alike;
 mod bench;
 mod claims;
 mod class_marks;
