@@ -132,7 +132,16 @@ fn in_sentence(prose: &str, sentence: &[Token]) -> Vec<Claim> {
         .filter(|(one, kind)| context::speaks_of_it(sentence, &one.said, remark(*kind)))
         .map(|(one, kind)| Claim { span: one.said.span, kind, denied: one.said.denied })
         .collect();
-    claims.extend(values(prose, sentence));
+    let values = values(prose, sentence);
+    // `settles at 0` says where it settles.
+    claims.retain(|claim| {
+        let within = |value: &Claim| value.span.start <= claim.span.start && claim.span.end <= value.span.end;
+        claim.kind != ClaimKind::DiesAway
+            || !values.iter().any(|value| {
+                of(value) == Some(Quantity::Final) && value.denied == claim.denied && within(value)
+            })
+    });
+    claims.extend(values);
     claims.sort_by_key(|claim| (claim.span.start, claim.span.end));
     // `grows or decays`: neither is claimed.
     let affirmed = claims.iter().filter(|claim| !claim.denied).count();
@@ -140,7 +149,8 @@ fn in_sentence(prose: &str, sentence: &[Token]) -> Vec<Claim> {
         return Vec::new();
     }
     // `dies away for ever` says that it dies away.
-    if claims.iter().any(|claim| claim.kind == ClaimKind::DiesAway && !claim.denied) {
+    let settles = |claim: &Claim| claim.kind == ClaimKind::DiesAway || of(claim) == Some(Quantity::Final);
+    if claims.iter().any(|claim| settles(claim) && !claim.denied) {
         claims.retain(|claim| claim.kind != ClaimKind::NeverEnds);
     }
     claims
@@ -170,10 +180,11 @@ fn opposed(a: &Claim, b: &Claim) -> bool {
     }
     let group = |kind| match kind {
         Stable | MarginallyStable | Unstable => 1,
-        DiesAway | GrowsWithoutBound | NeverEnds | ConstantAmplitude => 2,
+        DiesAway | GrowsWithoutBound | NeverEnds | ConstantAmplitude | Value(Quantity::Final, _) => 2,
         _ => 0,
     };
-    let ends = a.kind == DiesAway || b.kind == DiesAway;
+    let settles = |kind| matches!(kind, DiesAway | Value(Quantity::Final, _));
+    let ends = settles(a.kind) != settles(b.kind);
     match (group(a.kind), group(b.kind)) {
         (1, 1) => true,
         (2, 2) => ends,
@@ -766,9 +777,9 @@ mod tests {
             ("The angle starts at $0$.", "the initial value is 0"),
             ("The final value is not 0.", "the final value is not 0"),
             ("It has a final value of 2.5.", "the final value is 2.5"),
-            ("It settles at 0.", "it settles; the final value is 0"),
-            ("It settles at about −0.3 rad.", "it settles; the final value is about -0.3"),
-            ("It converges to 2,5 V.", "it settles; the final value is 2.5"),
+            ("It settles at 0.", "the final value is 0"),
+            ("It settles at about −0.3 rad.", "the final value is about -0.3"),
+            ("It converges to 2,5 V.", "the final value is 2.5"),
             ("The angle returns to zero.", "the final value is 0"),
             ("The angle does not return to zero.", "the final value is not 0"),
             ("It goes back to 0 rad.", "the final value is 0"),
@@ -816,7 +827,7 @@ mod tests {
             ("It is stable or unstable.", ""),
             ("It grows exponentially or it decays to zero.", ""),
             ("It is stable. It is unstable.", ""),
-            ("It settles at 0. It grows without bound.", "the final value is 0"),
+            ("It settles at 0. It grows without bound.", ""),
             // how much, and for how long
             ("It is almost stable.", ""),
             ("It is less stable than that.", ""),

@@ -209,8 +209,6 @@ const MEASURES: &[&str] = &[
     "amplitudes",
     "oscillation",
     "oscillations",
-    "swing",
-    "swings",
     "envelope",
     "velocity",
     "speed",
@@ -278,7 +276,17 @@ pub(super) fn speaks_of_it(sentence: &[Token], said: &Said, remark: Remark) -> b
                 })
         }
         Remark::Value => {
-            !subject().any(|place| PARTS.contains(&word(place)) || MEASURES.contains(&word(place)))
+            // `the swings return to zero`, but not `it swings and returns to zero`
+            let swing = |place: usize| {
+                matches!(word(place), "swing" | "swings")
+                    && place > start
+                    && matches!(
+                        word(place - 1),
+                        "the" | "each" | "its" | "these" | "all" | "of" | "a" | "such"
+                    )
+            };
+            !subject()
+                .any(|place| PARTS.contains(&word(place)) || MEASURES.contains(&word(place)) || swing(place))
         }
         Remark::Named => !subject().any(|place| PARTS.contains(&word(place)) && word(place) != "impulse"),
     }

@@ -3,7 +3,7 @@
 use polemark::grading::{self, Catalogue};
 use polemark::lab;
 use polemark::reference::Reference;
-use polemark::submission::{self, AnswerValue, Folder};
+use polemark::submission::{self, AnswerValue, Folder, NoFiles};
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -48,4 +48,31 @@ fn conflicts_of_the_sample_class() {
         include_str!("conflicts.txt").lines().filter(|line| !line.is_empty() && !line.starts_with('#'));
     let want: String = rows.map(|row| format!("{row}\n")).collect();
     assert_eq!(conflicts(), want);
+}
+
+/// The table in `docs/marking.md` whose first column is the description in words of `hanging.response`.
+#[test]
+fn conflicts_in_the_manual() {
+    let lab = lab::load(lab::DEFAULT).expect("the embedded lab is right");
+    let reference = Reference::compute(&lab).expect("the lab has a reference");
+    let manual = include_str!("../../docs/marking.md");
+    let start = manual.find("| description | beside it |").expect("the manual has the table");
+    let rows: Vec<&str> = manual[start..].lines().take_while(|line| line.starts_with('|')).skip(2).collect();
+    assert!(rows.len() >= 10, "{rows:#?}");
+    for row in rows {
+        let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
+        let [description, beside, claim, own, by_reference] = cells.as_slice() else { panic!("{row}") };
+        let text = format!(
+            "answers:\n  hanging.response:\n    description: \"{description}\"\n    {}\n",
+            beside.trim_matches('`')
+        );
+        let submission = submission::read("a", "a.yaml", text.as_bytes(), &lab.sheet, &NoFiles);
+        let card = grading::grade(&lab, &reference, &Catalogue::default(), &submission, None);
+        let items = card.questions.iter().flat_map(|question| &question.items);
+        let found: Vec<_> = items.flat_map(|item| &item.evidence.conflicts).collect();
+        let against =
+            |own: bool| found.iter().find(|one| one.own == own).map_or("", |one| one.against.as_str());
+        assert_eq!((against(true), against(false)), (*own, *by_reference), "{row}: {found:?}");
+        assert!(found.iter().all(|one| one.claim == *claim), "{row}: {found:?}");
+    }
 }
