@@ -92,7 +92,7 @@ mod tests {
             include_str!("hand_marks.rs"),
             include_str!("nonlinearity.rs"),
             include_str!("plot.rs"),
-            include_str!("poles.rs"),
+            include_str!("poles/mod.rs"),
             include_str!("same_mistake.rs"),
             include_str!("shape.rs"),
             include_str!("stability.rs"),
