@@ -17,7 +17,7 @@ use crate::reference::Reference;
 use crate::submission::TypedComplex;
 use assignment::Assignment;
 use set::WantedSet;
-use typed_pole::TypedPole;
+use typed_pole::{Side, TypedPole};
 
 /// More poles than this are not matched one by one.
 const MOST: usize = 60;
@@ -156,7 +156,7 @@ fn compare(
     let one_mirrored = not_right.iter().any(|value| {
         let mirrored = value.mirrored();
         not_found.iter().any(|pole| mirrored.accepted_for(pole, tolerance))
-    });
+    }) || right_but_for_sides(&set, &values, &fit);
     let code = if one_mirrored { "poles.mirrored" } else { "poles.value" };
     let mut reason = words::wrong_pairs(each, &values, &fit);
     if one_mirrored {
@@ -184,6 +184,18 @@ fn missing_conjugates(set: &WantedSet<'_>, values: &[TypedPole]) -> Option<Strin
         "Each pole given is right, but complex poles of a real system come in conjugate pairs: {} missing. Half the points.",
         words::is_are(&list)
     ))
+}
+
+/// The set would be right if each pole were on the side of the one it stands for.
+fn right_but_for_sides(set: &WantedSet<'_>, values: &[TypedPole], fit: &Assignment) -> bool {
+    let mut moved = values.to_vec();
+    for (typed, expected) in fit.wrong_pairs() {
+        let (is, should) = (moved[typed].side(), Side::of(&set.each[expected]));
+        if matches!((is, should), (Side::Left, Side::Right) | (Side::Right, Side::Left)) {
+            moved[typed] = moved[typed].mirrored();
+        }
+    }
+    set.right(&moved, &Assignment::best(&set.each, &moved, set.nearness.parts)).is_some()
 }
 
 /// The same places, though not the same number of poles at each.

@@ -66,9 +66,8 @@ impl<'a> WantedSet<'a> {
     /// Expected poles without a side take either, so it is enough that there are as many on each side as must be there.
     fn same_sides(&self, typed: &[TypedPole], others: &[usize]) -> bool {
         let expected = |side: Side| self.each.iter().filter(|pole| Side::of(pole) == side).count();
-        let left = others.iter().filter(|index| typed[**index].re.value < Rational::ZERO).count();
-        let right = others.iter().filter(|index| typed[**index].re.value > Rational::ZERO).count();
-        left >= expected(Side::Left) && right >= expected(Side::Right)
+        let given = |side: Side| others.iter().filter(|index| typed[**index].side() == side).count();
+        [Side::Left, Side::Right].into_iter().all(|side| given(side) >= expected(side))
     }
 
     /// Real roots and pairs with what rounding leaves open; `None` when a conjugate is missing.

@@ -399,6 +399,9 @@ fn slips_beside_a_multiple_pole() {
     for (text, code) in [
         ("-1.17,0 -0.915,-0.148", "poles.missing_conjugate"),
         ("1.17,0 0.915,-0.148 0.915,0.148", "poles.mirrored"),
+        ("-1.17,0 0.915,-0.148 0.915,0.148", "poles.mirrored"),
+        ("-1.17,0 -0.915,-0.3 -0.915,0.3", "poles.value"),
+        ("-1.17,0 -0.915,-0.148 -0.915,0.148 -1,0", "poles.value"),
     ] {
         assert_eq!(judged(&polynomial("1 3 3 1"), &answer(text)).code, code, "{text}");
     }

@@ -4,6 +4,7 @@ use crate::lab::Tolerance;
 use crate::lti::Pole;
 use crate::submission::{Decimal, TypedComplex};
 use num_complex::Complex64;
+use std::cmp::Ordering;
 
 /// A typed pole and its images.
 #[derive(Clone, Debug)]
@@ -29,12 +30,19 @@ impl TypedPole {
         self.re.value == other.re.value && self.im.value == -other.im.value.clone()
     }
 
+    pub fn side(&self) -> Side {
+        match self.re.value.cmp(&Rational::ZERO) {
+            Ordering::Less => Side::Left,
+            Ordering::Greater => Side::Right,
+            Ordering::Equal => Side::None,
+        }
+    }
+
     /// Both parts are near enough or correctly rounded, and the real parts have the same sign.
     pub fn accepted_for(&self, pole: &Pole, tolerance: &Tolerance) -> bool {
         let same_side = match Side::of(pole) {
-            Side::Right => self.re.value > Rational::ZERO,
-            Side::Left => self.re.value < Rational::ZERO,
             Side::None => true,
+            side => self.side() == side,
         };
         same_side
             && closeness(pole.re, pole.error_bound, &self.re, tolerance).accepted()
