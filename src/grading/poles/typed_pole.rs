@@ -76,16 +76,18 @@ impl Side {
     }
 }
 
-/// How far the number that was rounded to `typed` may be from it: half a unit of the last place.
+/// How far the number that was rounded to `typed` may be from it: half a unit of its last place, or of an earlier one when
+/// zeros at the end of a whole number may only tell its size, as those of `1300` for two figures.
 ///
 /// Zero for fewer significant figures than the lab asks for, and for an exact 0.
 pub(super) fn rounding(typed: &Decimal, tolerance: &Tolerance) -> Rational {
-    match tolerance.figures {
-        Some(figures) if !typed.value.is_zero() && significant_figures(typed) >= figures as usize => {
-            Rational::from(10).pow(typed.last_place as isize) / Rational::from(2)
-        }
-        _ => Rational::ZERO,
-    }
+    let Some(figures) = tolerance.figures else { return Rational::ZERO };
+    let spare = significant_figures(typed).checked_sub(figures as usize);
+    let Some(spare) = spare.filter(|_| !typed.value.is_zero()) else { return Rational::ZERO };
+    let whole = typed.last_place == 0 && !typed.text.contains(['.', 'e', 'E']);
+    let zeros = if whole { typed.text.len() - typed.text.trim_end_matches('0').len() } else { 0 };
+    let places = isize::try_from(zeros.min(spare)).unwrap_or(0);
+    Rational::from(10).pow(typed.last_place as isize + places) / Rational::from(2)
 }
 
 fn negated(decimal: &Decimal) -> Decimal {
@@ -94,4 +96,31 @@ fn negated(decimal: &Decimal) -> Decimal {
         None => format!("-{}", decimal.text.trim_start_matches('+')),
     };
     Decimal { text, value: -decimal.value.clone(), last_place: decimal.last_place }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::closeness::tests::{tolerance, typed};
+    use super::*;
+    use crate::algebra::parse_decimal;
+
+    #[test]
+    fn half_a_unit_of_the_last_place() {
+        for (text, want) in [
+            ("-0.143", "0.0005"),
+            ("5.60", "0.005"),
+            ("12", "0.5"),
+            ("1300", "50"),
+            ("1300.0", "0.05"),
+            ("100", "5"),
+            ("6", "0"),
+            ("0.05", "0"),
+            ("0.00", "0"),
+            ("0", "0"),
+        ] {
+            let got = rounding(&typed(text), &tolerance("0", "0", Some(2)));
+            assert_eq!(got, parse_decimal(want).unwrap(), "{text}");
+        }
+        assert_eq!(rounding(&typed("1.23"), &tolerance("0", "0", None)), Rational::ZERO);
+    }
 }
