@@ -7,9 +7,6 @@ use polemark::lab::Points;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-/// What prose describes rests on the student's own earlier answers.
-const PROSE_FOLLOWS: bool = false;
-
 fn agrees(item: &ItemScore, given: &Given) -> bool {
     item.earned == given.points
         && given.own.is_none_or(|own| stands(item, own))
@@ -23,7 +20,6 @@ fn stands(item: &ItemScore, own: Own) -> bool {
     match own {
         Own::Follows => credited == Some((true, Guard::Passed)) && !item.code.ends_with(".same_mistake"),
         Own::Charged => item.code.ends_with(".same_mistake"),
-        Own::Refused if item.code.starts_with("concepts.") && !PROSE_FOLLOWS => true,
         Own::Refused => credited.is_some_and(|(credited, guard)| !credited && guard != Guard::Passed),
         Own::Contradicts => item.code == "stability.contradicts_own",
         Own::Unsupported => item.code == "stability.unsupported",
