@@ -7,6 +7,7 @@ use polemark::source::SourceText;
 use polemark::submission::{self, Folder, Submission};
 use std::fs;
 use std::path::PathBuf;
+use std::sync::LazyLock;
 
 pub struct Bench {
     pub lab: LabDefinition,
@@ -16,18 +17,23 @@ pub struct Bench {
 
 impl Bench {
     /// The lab that ships inside the program.
-    pub fn embedded() -> Self {
-        Self::new(lab::load(lab::DEFAULT).expect("the embedded lab is right"))
+    pub fn embedded() -> &'static Self {
+        static EMBEDDED: LazyLock<Bench> =
+            LazyLock::new(|| Bench::new(lab::load(lab::DEFAULT).expect("the embedded lab is right")));
+        &EMBEDDED
     }
 
     /// `small.yaml`: systems to be solved in the head.
-    pub fn small() -> Self {
-        Self::of("small.yaml", include_str!("small.yaml"))
+    pub fn small() -> &'static Self {
+        static SMALL: LazyLock<Bench> = LazyLock::new(|| Bench::of("small.yaml", include_str!("small.yaml")));
+        &SMALL
     }
 
     /// `oscillator.yaml`: every feature of a response, with units.
-    pub fn oscillator() -> Self {
-        Self::of("oscillator.yaml", include_str!("oscillator.yaml"))
+    pub fn oscillator() -> &'static Self {
+        static OSCILLATOR: LazyLock<Bench> =
+            LazyLock::new(|| Bench::of("oscillator.yaml", include_str!("oscillator.yaml")));
+        &OSCILLATOR
     }
 
     fn of(name: &str, text: &str) -> Self {

@@ -78,6 +78,8 @@ fn the_table_covers_every_file_and_criterion() {
         for (id, mark) in &sheet.marks {
             let earns = mark.given.points > Points::ZERO;
             assert!(earns || !mark.given.reason.is_empty(), "{}: `{id}` has no reason", sheet.file);
+            let left_to_a_person = mark.program.as_ref().is_none_or(|known| known.provisional == Some(true));
+            assert!(left_to_a_person, "{}: the program decides `{id}` otherwise", sheet.file);
         }
         assert!(in_table.insert(sheet.file.clone()), "{} stands twice in the table", sheet.file);
     }

@@ -21,7 +21,7 @@ use proptest::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
-static BENCH: LazyLock<Bench> = LazyLock::new(Bench::embedded);
+static BENCH: LazyLock<&Bench> = LazyLock::new(Bench::embedded);
 
 /// The answers of the sample class, those of malformed files left out.
 static CLASS: LazyLock<Vec<Submission>> =

@@ -67,7 +67,7 @@ struct Example {
 }
 
 struct Manual<'a> {
-    benches: &'a [Bench],
+    benches: &'a [&'a Bench],
     /// Heading and the number of its examples.
     sections: Vec<(String, usize)>,
     examples: Vec<Example>,
@@ -106,7 +106,7 @@ fn as_yaml(cell: &str) -> String {
 }
 
 impl<'a> Manual<'a> {
-    fn read(benches: &'a [Bench]) -> Self {
+    fn read(benches: &'a [&'a Bench]) -> Self {
         let mut manual = Self { benches, sections: Vec::new(), examples: Vec::new() };
         let mut lines = MANUAL.lines().enumerate().peekable();
         while let Some((index, line)) = lines.next() {
