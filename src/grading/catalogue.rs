@@ -1,14 +1,17 @@
 use super::accepted::{Accepted, accepted, transfer_function_of};
-use super::likeness::Row;
+use super::likeness::{Form, Row};
+use super::pairs::Pairs;
 use crate::algebra::{Rational, to_f64};
 use crate::lab::{Check, LabDefinition, SystemRef};
 use crate::lti::TransferFunction;
-use crate::model::{Derivation, Equilibrium, Mistake, mistakes};
+use crate::model::{Derivation, Estimates, Mistake, RealFunction};
 use crate::reference::Reference;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::OnceLock;
 
 /// The likely mistakes in deriving each transfer function that a lab asks for, and what they lead to: made once a lab.
 ///
+/// Single mistakes are followed at once, pairs of them when the first answer needs them.
 /// The empty one (`Catalogue::default()`) explains nothing.
 #[derive(Clone, Debug, Default)]
 pub struct Catalogue {
@@ -24,6 +27,12 @@ pub(super) struct System {
     /// Accepted sets of parameter values as `g = 9.8`, the lab's own (no words) first; what is right with each.
     pub choices: Vec<(Vec<String>, Row)>,
     pub wrong: Vec<WrongFunction>,
+    /// How likely each mistake is.
+    pub weights: Vec<u32>,
+    /// How likely a slip of a digit, exchanged digits and coarse rounding are.
+    pub afterwards: BTreeMap<&'static str, u32>,
+    estimates: Estimates,
+    pairs: OnceLock<Pairs>,
 }
 
 /// A transfer function that mistakes lead to; no two are equal, and none is right.
@@ -32,7 +41,7 @@ pub(super) struct WrongFunction {
     /// With every common factor cancelled, or as the derivation gives it without a common power of s.
     pub rows: Vec<Row>,
     /// Equal explanations: each with the parameter values it was found with, as a place in `choices`.
-    pub causes: Vec<(Mistake, usize)>,
+    pub causes: Vec<(usize, usize)>,
 }
 
 impl Catalogue {
@@ -54,6 +63,12 @@ impl Catalogue {
         }
         Self { systems }
     }
+
+    /// Follows the pairs of mistakes too, which otherwise the first answer does that no single mistake explains; how many
+    /// different functions they lead to.
+    pub fn follow_pairs(&self) -> usize {
+        self.systems.iter().map(|system| system.pairs().functions).sum()
+    }
 }
 
 impl System {
@@ -61,61 +76,99 @@ impl System {
     fn new(lab: &LabDefinition, reference: &Reference, of: &SystemRef, tolerance: f64) -> Option<Self> {
         let definition = lab.models.iter().find(|model| model.id == of.model)?;
         let point = definition.operating_points.iter().find(|point| point.id == of.operating_point)?;
+        let derivation = definition.derivation(point, &lab.parameters);
         let right = accepted(reference, of, |one| &one.linearization.transfer_function);
-        let units: BTreeMap<String, String> =
-            lab.parameters.iter().map(|parameter| (parameter.name.clone(), parameter.unit.clone())).collect();
-        let others: Vec<(String, &Equilibrium)> = definition
-            .operating_points
-            .iter()
-            .filter(|other| other.id != point.id)
-            .map(|other| (other.title.clone(), &other.at))
-            .collect();
-        // Found functions, comparable: cancelled, and the denominator monic.
-        let mut known: Vec<TransferFunction> = Vec::new();
-        let mut wrong: Vec<WrongFunction> = Vec::new();
-        for (choice, one) in right.iter().enumerate() {
-            let parameters = parameters(lab, one);
-            let derivation = Derivation {
-                model: &definition.model,
-                parameters: &parameters,
-                units: &units,
-                at: &point.at,
-                others: &others,
-                input: &point.input,
-                output: &point.output,
-            };
-            for (mistake, function) in mistakes(&derivation) {
-                let cancelled = function.cancelled().0;
-                if right.iter().any(|one| one.what.equals(&cancelled)) {
-                    continue;
-                }
-                let comparable = cancelled.monic();
-                match known.iter().position(|one| *one == comparable) {
-                    Some(place) => {
-                        let causes = &mut wrong[place].causes;
-                        if !causes.iter().any(|(known, _)| *known == mistake) {
-                            causes.push((mistake, choice));
-                        }
-                    }
-                    None => {
-                        known.push(comparable);
-                        let mut rows = vec![Row::of(&cancelled), Row::of(&without_powers_of_s(&function))];
-                        rows.dedup();
-                        wrong.push(WrongFunction { rows, causes: vec![(mistake, choice)] });
-                    }
-                }
-            }
-        }
-        let words = |one: &Accepted<'_, TransferFunction>| {
+        let words = |one: &Accepted<'_, TransferFunction>| -> Vec<String> {
             one.differs.iter().map(|(name, text, _)| format!("{name} = {text}")).collect()
         };
-        let choices = right.iter().map(|one| (words(one), Row::of(one.what))).collect();
-        Some(Self { of: of.clone(), tolerance, choices, wrong })
+        let choices: Option<Vec<_>> =
+            right.iter().map(|one| Some((words(one), Row::of(one.what)?))).collect();
+        let sets = right.iter().map(|one| parameters(&derivation, one)).collect();
+        let mistakes: Vec<Mistake> = derivation
+            .mistakes()
+            .into_iter()
+            .filter(|mistake| lab.mistakes.weight(mistake.kind.code()) > 0)
+            .collect();
+        let weights = mistakes.iter().map(|mistake| lab.mistakes.weight(mistake.kind.code())).collect();
+        let estimates = Estimates::new(derivation, mistakes, sets);
+        let mut own = Self {
+            of: of.clone(),
+            tolerance,
+            choices: choices?,
+            wrong: Vec::new(),
+            weights,
+            afterwards: ["slip.digit", "slip.exchanged", "rounding.coarse"]
+                .map(|code| (code, lab.mistakes.weight(code)))
+                .into(),
+            estimates,
+            pairs: OnceLock::new(),
+        };
+        own.wrong = own.singles();
+        Some(own)
+    }
+
+    pub fn mistake(&self, place: usize) -> Option<&Mistake> {
+        self.estimates.mistakes().get(place)
+    }
+
+    pub fn pairs(&self) -> &Pairs {
+        self.pairs.get_or_init(|| {
+            let known = self.wrong.iter().flat_map(|wrong| &wrong.rows);
+            let simpler: BTreeSet<_> =
+                known.chain(self.choices.iter().map(|(_, row)| row)).map(Row::key).collect();
+            let weight = |mistake: usize| self.weights.get(mistake).copied().map_or(0, u64::from);
+            Pairs::new(&self.estimates, &simpler, &|pair| weight(pair.first) * weight(pair.second))
+        })
+    }
+
+    /// What these mistakes lead to with that choice of parameter values, exactly.
+    pub fn exactly(&self, mistakes: &[usize], choice: usize) -> Vec<Row> {
+        let all: Option<Vec<&Mistake>> = mistakes.iter().map(|place| self.mistake(*place)).collect();
+        let (Some(all), Some(parameters)) = (all, self.estimates.choices().get(choice)) else {
+            return Vec::new();
+        };
+        let derivation = Derivation { parameters: parameters.clone(), ..self.estimates.derivation().clone() };
+        let Some(function) = derivation.function(&all) else { return Vec::new() };
+        let both = [Row::of(&function.cancelled().0), Row::of(&without_powers_of_s(&function))];
+        both.into_iter().flatten().collect()
+    }
+
+    fn singles(&self) -> Vec<WrongFunction> {
+        let right: BTreeSet<_> = self.choices.iter().map(|(_, row)| row.key()).collect();
+        let mut places: BTreeMap<(Form, Vec<u64>), usize> = BTreeMap::new();
+        let mut wrong: Vec<WrongFunction> = Vec::new();
+        self.estimates.singles(&mut |mistake, choice, function| {
+            let rows = rows(&function);
+            let Some(first) = rows.first() else { return };
+            let key = first.key();
+            if right.contains(&key) {
+                return;
+            }
+            match places.get(&key) {
+                Some(place) => {
+                    let causes = &mut wrong[*place].causes;
+                    if !causes.iter().any(|(known, _)| *known == mistake) {
+                        causes.push((mistake, choice));
+                    }
+                }
+                None => {
+                    places.insert(key, wrong.len());
+                    wrong.push(WrongFunction { rows, causes: vec![(mistake, choice)] });
+                }
+            }
+        });
+        wrong
     }
 }
 
-fn parameters(lab: &LabDefinition, one: &Accepted<'_, TransferFunction>) -> BTreeMap<String, Rational> {
-    let own = lab.parameters.iter().map(|parameter| (parameter.name.clone(), parameter.value.clone()));
+/// With every common factor cancelled first, then without a common power of s where that is something else.
+fn rows(function: &RealFunction) -> Vec<Row> {
+    let both = [function.cancelled(), Some(function.without_shared_s())];
+    both.into_iter().flatten().filter_map(|one| Row::estimated(&one)).collect()
+}
+
+fn parameters(derivation: &Derivation, one: &Accepted<'_, TransferFunction>) -> BTreeMap<String, Rational> {
+    let own = derivation.parameters.iter().map(|(name, value)| (name.clone(), value.clone()));
     own.chain(one.differs.iter().map(|(name, _, value)| (name.clone(), value.clone()))).collect()
 }
 

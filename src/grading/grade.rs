@@ -189,13 +189,13 @@ impl<'a> Grader<'a> {
     fn transfer_function(&self, criteria: &[&Criterion], of: &SystemRef) -> Vec<Mark> {
         let accepted = accepted(self.reference, of, |one| &one.linearization.transfer_function);
         let Some(first) = criteria.first() else { return Vec::new() };
-        if let Field::Value(_, AnswerValue::TransferFunction { transfer_function: typed, .. }) =
+        if let Field::Value(answer, AnswerValue::TransferFunction { transfer_function: typed, formula }) =
             self.field(&first.field)
         {
             let mut marks = transfer_function::judge(criteria, &accepted, typed);
             let wrong = |mark: &&mut Mark| matches!(mark.verdict, Verdict::Wrong | Verdict::Partly);
             if let Some(first) = marks.iter_mut().find(wrong) {
-                first.diagnosis = self.catalogue.diagnose(of, typed);
+                first.diagnosis = self.catalogue.diagnose_as_typed(of, typed, &answer.text, formula.as_ref());
             }
             return marks;
         }

@@ -11,6 +11,7 @@ mod concepts;
 mod cover;
 mod diagnosis;
 mod digits;
+mod evidence;
 mod follow_through;
 #[cfg(test)]
 mod follow_through_tests;
@@ -24,6 +25,7 @@ mod nonlinearity;
 mod own;
 mod own_claims;
 mod own_poles;
+mod pairs;
 mod plot;
 mod poles;
 mod same_mistake;
@@ -68,6 +70,8 @@ mod tests {
             "input",
             "function",
             "slip",
+            "units",
+            "rounding",
         ];
         source
             .split('"')
@@ -87,6 +91,7 @@ mod tests {
         let manual = include_str!("../../docs/marking.md");
         let sources = [
             include_str!("concepts.rs"),
+            include_str!("diagnosis.rs"),
             include_str!("digits.rs"),
             include_str!("follow_through.rs"),
             include_str!("hand_marks.rs"),

@@ -1,4 +1,4 @@
-use super::{AskedFeature, Points};
+use super::{AskedFeature, MistakesRule, Points};
 use crate::algebra::Rational;
 use crate::lti::InputKind;
 use crate::model::{Comparison, Equilibrium, Model};
@@ -23,6 +23,7 @@ pub struct LabDefinition {
     pub observed: Vec<ObservedRow>,
     pub cover: Cover,
     pub follow_through: FollowThroughRule,
+    pub mistakes: MistakesRule,
     /// Values stated by hand or taken from an independent program; `verify` holds the computed ones against them.
     pub expectations: Vec<Expectation>,
     /// The model answer, assembled from the questions' `model_answer`, read like any submission.
@@ -58,6 +59,8 @@ pub struct Parameter {
     pub description: String,
     /// Other values taken as right, exactly, each with its text as typed. A set, never a band.
     pub accepted: Vec<(String, Rational)>,
+    /// Values often used wrongly, each with its text as typed.
+    pub mistaken: Vec<(String, Rational)>,
 }
 
 #[derive(Clone, Debug)]

@@ -74,6 +74,9 @@ pub(super) struct LabFile {
     /// What follows rightly from a student's own earlier answer.
     #[serde(default)]
     pub follow_through: FollowThroughFile,
+    /// What is looked for in a wrong transfer function.
+    #[serde(default)]
+    pub mistakes: MistakesFile,
     /// What all questions add up to, points.
     pub total: Text,
     /// The questions by id, in the order of the handout. The id is the answer's key and may have dots.
@@ -103,6 +106,9 @@ pub(super) struct ParameterFile {
     /// Other values taken as right, exactly: a set, never a band. The lab's own value is not repeated.
     #[serde(default)]
     pub accepted: Vec<Text>,
+    /// Values often used wrongly: looked for when a transfer function is wrong.
+    #[serde(default)]
+    pub mistaken: Vec<Text>,
 }
 
 /// A system given by its equations of motion.
@@ -266,6 +272,19 @@ pub(super) struct FollowThroughFile {
     pub credit: Option<Text>,
     /// Of a later transfer function with the same mistake in it as an earlier one. Default 1.
     pub same_mistake: Option<Text>,
+}
+
+/// What is looked for in a wrong transfer function. The mistakes themselves are found from the equations.
+#[derive(Debug, Default, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MistakesFile {
+    /// How likely a mistake is beside the others, by its code: a whole number, 0 to leave it out.
+    #[serde(default)]
+    pub weights: Entries<Text>,
+    /// Mistakes that change no transfer function: a term (`equation 1: b*x'`) with all that can be done to it, or one change
+    /// as a report tells it (`equation 1: b*x' -> 0`).
+    #[serde(default)]
+    pub without_effect: Vec<Text>,
 }
 
 /// How near is right, by kind of answer. A criterion may have a `tolerance` of its own.

@@ -14,4 +14,4 @@ pub use equations::{Coordinate, Equation, Model, ModelError};
 pub use equilibrium::Equilibrium;
 pub use exact::Exact;
 pub use linearization::{Linearization, linearize};
-pub use mistakes::{Derivation, Mistake, MistakeKind, Place, mistakes};
+pub use mistakes::{Derivation, Estimates, Mistake, MistakeKind, Pair, Place, RealFunction, RealPolynomial};

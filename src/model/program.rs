@@ -6,6 +6,8 @@ use std::f64::consts::PI;
 #[derive(Clone, Debug)]
 pub(super) struct Program {
     steps: Vec<Step>,
+    /// Whether sin π is 0.
+    snaps: bool,
 }
 
 /// What a name stands for.
@@ -29,7 +31,12 @@ enum Step {
     WholePower(i32),
     Power,
     Call(Function),
+    /// What is nothing but the rounding of an angle becomes 0.
+    Snap,
 }
+
+/// A sin or cos below this is 0.
+const NOTHING: f64 = 1e-12;
 
 impl Program {
     /// `meaning` tells what each name, with that many primes, stands for.
@@ -37,7 +44,17 @@ impl Program {
         expression: &Expression,
         meaning: &dyn Fn(&str, u8) -> Option<Meaning>,
     ) -> Result<Self, ModelError> {
-        let mut program = Self { steps: Vec::new() };
+        let mut program = Self { steps: Vec::new(), snaps: false };
+        program.append(expression, meaning)?;
+        Ok(program)
+    }
+
+    /// The same, but sin π is 0 and not 1.2e-16: for telling what vanishes from what does not.
+    pub fn with_zeros(
+        expression: &Expression,
+        meaning: &dyn Fn(&str, u8) -> Option<Meaning>,
+    ) -> Result<Self, ModelError> {
+        let mut program = Self { steps: Vec::new(), snaps: true };
         program.append(expression, meaning)?;
         Ok(program)
     }
@@ -90,6 +107,9 @@ impl Program {
         };
         let constant = self.steps[start..].iter().all(|step| matches!(step, Step::Push(_)));
         self.steps.push(operation);
+        if self.snaps && matches!(operation, Step::Call(Function::Sin | Function::Cos | Function::Tan)) {
+            self.steps.push(Step::Snap);
+        }
         if constant && !matches!(operation, Step::Load(_)) {
             let mut stack = Vec::new();
             self.steps.drain(start..).for_each(|step| step.take(&[], &mut stack));
@@ -108,6 +128,10 @@ impl Step {
             Self::Negate => -top(),
             Self::WholePower(n) => top().powi(n),
             Self::Call(function) => function.apply(top()),
+            Self::Snap => {
+                let value = top();
+                if value.abs() < NOTHING { 0.0 } else { value }
+            }
             Self::Add | Self::Subtract | Self::Multiply | Self::Divide | Self::Power => {
                 let (right, left) = (top(), top());
                 match self {
@@ -164,6 +188,16 @@ mod tests {
             Some(if name == "x" { Meaning::Slot(0) } else { Meaning::Constant(0.5) })
         });
         assert_eq!(program.unwrap().steps.len(), 3);
+    }
+
+    #[test]
+    fn what_vanishes_is_zero_when_asked_for() {
+        let tree = Expression::parse("k*sin(x) + cos(x/2) + tan(pi)").unwrap();
+        let meaning =
+            |name: &str, _: u8| Some(if name == "x" { Meaning::Slot(0) } else { Meaning::Constant(3.0) });
+        let run = |program: Program| program.run(&[PI], &mut Vec::new());
+        assert_eq!(run(Program::with_zeros(&tree, &meaning).unwrap()), 0.0);
+        assert_ne!(run(Program::new(&tree, &meaning).unwrap()), 0.0);
     }
 
     #[test]

@@ -14,7 +14,7 @@ use polemark::algebra::{Polynomial, Rational, to_f64};
 use polemark::grading::{ItemScore, Scorecard, Verdict};
 use polemark::lab::{LabDefinition, Points};
 use polemark::lti::TransferFunction;
-use polemark::model::{Derivation, mistakes};
+use polemark::model::Mistake;
 use polemark::source::Span;
 use polemark::submission::{Answer, Submission};
 use proptest::prelude::*;
@@ -222,28 +222,12 @@ fn every_criterion_is_reached_by_its_own_answer() {
 /// Each wrong turn of the derivation taken at both operating points, and then put right at the first.
 #[test]
 fn a_mistake_made_twice_and_put_right_once_never_lowers_the_total() {
-    let units =
-        |lab: &LabDefinition| lab.parameters.iter().map(|p| (p.name.clone(), p.unit.clone())).collect();
-    let values =
-        |lab: &LabDefinition| lab.parameters.iter().map(|p| (p.name.clone(), p.value.clone())).collect();
-    let (units, values) = (units(&BENCH.lab), values(&BENCH.lab));
     let model = &BENCH.lab.models[0];
     let wrong = |at: usize| -> BTreeMap<String, String> {
-        let (point, other) = (&model.operating_points[at], &model.operating_points[1 - at]);
-        let others = [(other.title.clone(), &other.at)];
-        let derivation = Derivation {
-            model: &model.model,
-            parameters: &values,
-            units: &units,
-            at: &point.at,
-            others: &others,
-            input: &point.input,
-            output: &point.output,
-        };
-        mistakes(&derivation)
-            .into_iter()
-            .map(|(mistake, function)| (mistake.change, rounded(&function)))
-            .collect()
+        let derivation = model.derivation(&model.operating_points[at], &BENCH.lab.parameters);
+        let led = |mistake: Mistake| Some((derivation.function(&[&mistake])?, mistake.change));
+        let all = derivation.mistakes().into_iter().filter_map(led);
+        all.map(|(function, change)| (change, rounded(&function))).collect()
     };
     let (hanging, upright) = (wrong(0), wrong(1));
     let mut spared_somewhere = 0;

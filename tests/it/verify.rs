@@ -43,6 +43,68 @@ fn every_number_the_key_depends_on_is_guarded() {
     assert!(unnoticed.is_empty(), "changed and still proven:\n{}", unnoticed.join("\n"));
 }
 
+/// The checks about mistakes that fail, each with the line it points to.
+fn failing(text: &str) -> Vec<String> {
+    let lab = LabDefinition::parse(SourceText::new("lab.yaml", text)).expect("the lab parses");
+    let reference = Reference::compute(&lab).expect("the lab has a reference");
+    let about_mistakes = |what: &str| what.contains("mistakes") || what.contains("without effect");
+    prove(&lab, &reference)
+        .into_iter()
+        .filter(|check| !check.holds && about_mistakes(&check.what))
+        .map(|check| {
+            let line = check.span.map(|span| lab.text.position(span.start).line);
+            let line = line.and_then(|line| text.lines().nth(line - 1)).unwrap_or("nowhere");
+            format!("{}: {} @ {}", check.what, check.found, line.trim())
+        })
+        .collect()
+}
+
+#[test]
+fn a_mistake_that_no_answer_shows_must_be_declared() {
+    const DECLARED: &str = "- \"equation 1: m*l*theta'^2*sin(theta)\"";
+    let text = embedded();
+    assert!(text.contains(DECLARED));
+    // Declared one by one instead, and one of them forgotten.
+    let some = text.replacen(
+        DECLARED,
+        "- \"equation 1: m*l*theta'^2*sin(theta) -> -m*l*theta'^2*sin(theta)\"\n    \
+         - \"equation 1: m*l*theta'^2*sin(theta) -> 0\"\n    \
+         - \"equation 1: m -> 1 in m*l*theta'^2*sin(theta)\"\n    \
+         - \"equation 1: sin(theta) -> -sin(theta)\"",
+        1,
+    );
+    let found = failing(&some);
+    assert_eq!(found.len(), 2, "{found:#?}");
+    for (found, point) in found.iter().zip(["hanging", "upright"]) {
+        assert!(found.starts_with(&format!("mistakes without effect at cart.{point}: no answer shows ")));
+        assert!(found.contains("`equation 1: l -> 1 in m*l*theta'^2*sin(theta)`; declare"), "{found}");
+        assert!(found.ends_with(&format!("@ {point}:")), "{found}");
+    }
+    // Declared although every answer shows it.
+    let stale = text.replacen(DECLARED, &format!("{DECLARED}\n    - \"equation 1: b*x'\""), 1);
+    assert_eq!(
+        failing(&stale),
+        [
+            "without effect: `equation 1: b*x'`: is declared, but every mistake it covers changes a transfer function \
+          @ - \"equation 1: b*x'\""
+        ]
+    );
+}
+
+#[test]
+fn mistakes_that_no_answer_tells_apart_are_listed() {
+    let lab = lab::load(lab::DEFAULT).expect("the embedded lab parses");
+    let reference = Reference::compute(&lab).expect("the embedded lab has a reference");
+    let checks = prove(&lab, &reference);
+    let found = |what: &str| &checks.iter().find(|check| check.what == what).expect("it is checked").found;
+    assert!(found("mistakes at cart.hanging").contains("`equation 1: F -> -F`  =  `G -> -G`"));
+    let upright = found("mistakes at cart.upright");
+    assert!(upright.contains(
+        "`equation 2: m*g*l*sin(theta) -> -m*g*l*sin(theta)`  =  `equation 2: sin(theta) -> -sin(theta)`"
+    ));
+    assert_eq!(found("mistakes without effect at cart.hanging"), "4, all declared");
+}
+
 /// The parts of the proof that do not recompute everything a second time.
 fn proven(text: &str) -> bool {
     let Ok(lab) = LabDefinition::parse(SourceText::new("lab.yaml", text)) else { return false };
@@ -65,8 +127,9 @@ fn numbers_of_the_key(text: &str) -> Vec<Range<usize>> {
 }
 
 fn collect(text: &str, node: &Node, places: &mut Vec<Range<usize>>) {
-    /// Text for people: changing a digit in it changes no answer.
-    const PROSE: [&str; 6] = ["title", "description", "unit", "input_unit", "output_unit", "shown_in"];
+    /// Text for people, and values that are wrong: changing a digit in it changes no answer.
+    const PROSE: [&str; 7] =
+        ["title", "description", "unit", "input_unit", "output_unit", "shown_in", "mistaken"];
     match &node.value {
         Value::Mapping(entries) => {
             for (key, _, value) in entries {

@@ -3,6 +3,7 @@
 mod cover;
 mod criteria;
 mod expectations;
+mod mistakes;
 mod models;
 mod questions;
 mod scalars;
@@ -124,6 +125,7 @@ impl Checker<'_> {
         let observed = self.observed(&file.observed, &names);
         let cover = self.cover(&file.cover, !file.observed.rows.0.is_empty());
         let expectations = self.expectations(&file.expect, &names);
+        let mistakes = self.mistakes(&file.mistakes, models.as_deref(), parameters.as_deref());
         let (questions, parameters) = (questions?, parameters?);
         let sheet = sheet::sheet(&file.lab.value, file.title.trim(), &questions, &parameters);
         let model_answer = self.model_answer(file, tree, &sheet)?;
@@ -140,6 +142,7 @@ impl Checker<'_> {
             observed: observed?,
             cover: cover?,
             follow_through: defaults.follow_through,
+            mistakes: mistakes?,
             expectations: expectations?,
             model_answer,
             sheet,
@@ -165,6 +168,22 @@ impl Checker<'_> {
                 Some((text.value.clone(), other))
             });
             let accepted: Vec<_> = accepted.collect();
+            let mistaken: Vec<_> = p
+                .mistaken
+                .iter()
+                .map(|text| {
+                    let other = self.number(text)?;
+                    let right = Some(&other) == value.as_ref()
+                        || accepted.iter().flatten().any(|(_, value)| *value == other);
+                    if right {
+                        let message =
+                            format!("`{}` lists `{}` as mistaken, but it is right", name.value, text.value);
+                        let help = "list only values that are wrong".to_owned();
+                        self.error("lab.mistakes", span(text), message, Some(help));
+                    }
+                    Some((text.value.clone(), other))
+                })
+                .collect();
             Some(Parameter {
                 name: name.value.clone(),
                 value: value?,
@@ -172,6 +191,7 @@ impl Checker<'_> {
                 unit: p.unit.clone(),
                 description: p.description.trim().to_owned(),
                 accepted: accepted.into_iter().collect::<Option<_>>()?,
+                mistaken: mistaken.into_iter().collect::<Option<_>>()?,
             })
         });
         let parameters: Vec<_> = parameters.collect();

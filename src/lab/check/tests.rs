@@ -226,6 +226,40 @@ fn a_wrong_lab_says_where_and_what_to_do() {
         "",
     );
 
+    // Mistakes.
+    check(
+        "mistaken: [0.024]",
+        "mistaken: [0.0060]",
+        "0.0060",
+        "`I` lists `0.0060` as mistaken, but it is right",
+        "list only values that are wrong",
+    );
+    check(
+        "mistakes:\n",
+        "mistakes:\n  weights: {term.sign: 12, term.sing: 3}\n",
+        "term.sing",
+        "there is no mistake with the code `term.sing`",
+        "did you mean `term.sign`?",
+    );
+    check(
+        "mistakes:\n",
+        "mistakes:\n  weights: {term.sign: -1}\n",
+        "-1",
+        "a weight must be a whole number of 0 to 1000, not `-1`",
+        "",
+    );
+    let help = "name a term as its equation prints it, `equation 1: b*x'`, or a change as `verify` lists it";
+    for entry in ["equation 1: m*l*theta'^3", "equation 3: b*x'", "b*x'", "equation 1: ", "equation 0: b*x'"]
+    {
+        check(
+            "\"equation 1: m*l*theta'^2*sin(theta)\"",
+            &format!("\"{entry}\""),
+            &format!("\"{entry}\""),
+            &format!("`{}` is no mistake that can be made here", entry.trim()),
+            help,
+        );
+    }
+
     // Equations, with places inside them.
     check(
         "b*x' + m*l",

@@ -1,9 +1,9 @@
+use super::edit::{Edit, Replacement};
 use super::{Derivation, Mistake, MistakeKind, Place};
-use crate::algebra::{Expression, NodeKind, Rational};
-use crate::lti::TransferFunction;
+use crate::algebra::{Expression, NodeKind};
 
 /// Each parameter that stands as a factor in a product left out, and each of its powers taken as the parameter itself.
-pub(super) fn mistakes(of: &Derivation<'_>) -> Vec<(Mistake, TransferFunction)> {
+pub(super) fn mistakes(of: &Derivation) -> Vec<Mistake> {
     let mut all = Vec::new();
     for (index, equation) in of.model.equations.iter().enumerate() {
         let number = index + 1;
@@ -12,18 +12,15 @@ pub(super) fn mistakes(of: &Derivation<'_>) -> Vec<(Mistake, TransferFunction)> 
         factors(&equation.left, None, &mut found);
         factors(&equation.right, None, &mut found);
         for (factor, product) in found {
-            let place = (factor.node.start, factor.node.end);
-            let places = vec![Place { equation: index, start: place.0, end: place.1 }];
+            let place = Place { equation: index, start: factor.node.start, end: factor.node.end };
             let name = text(factor.node);
             let inside = match product {
                 Some(product) => format!("in `{}` of equation {number}", text(product)),
                 None => format!("in equation {number}"),
             };
-            let mut add = |kind, words, change: String, result: Option<TransferFunction>| {
-                all.extend(
-                    result
-                        .map(|function| (Mistake { kind, words, change, places: places.clone() }, function)),
-                );
+            let mut add = |kind, words, change: String, to| {
+                let places = vec![place];
+                all.push(Mistake { kind, words, change, edit: Edit::Nodes(places.clone(), to), places });
             };
             let change = |to: &str| match product {
                 Some(product) => format!("equation {number}: {name} -> {to} in {}", text(product)),
@@ -34,7 +31,7 @@ pub(super) fn mistakes(of: &Derivation<'_>) -> Vec<(Mistake, TransferFunction)> 
                     MistakeKind::FactorDropped,
                     format!("the factor `{name}` {inside} is missing"),
                     change("1"),
-                    of.with_node(index, place, &|_| NodeKind::Number(Rational::ONE)),
+                    Replacement::Number(1),
                 );
             }
             if factor.is_power && of.model.parameters.contains(factor.base) {
@@ -43,7 +40,7 @@ pub(super) fn mistakes(of: &Derivation<'_>) -> Vec<(Mistake, TransferFunction)> 
                     MistakeKind::PowerDropped,
                     format!("`{name}` {inside} is taken as `{base}`"),
                     change(base),
-                    of.with_node(index, place, &|_| NodeKind::Symbol { name: base.clone(), primes: 0 }),
+                    Replacement::Name(base.clone()),
                 );
             }
         }

@@ -1,35 +1,24 @@
 //! The mistakes one is likely to make between the equations and a transfer function, found from any model's equations.
 
 mod calls;
+mod degrees;
+mod derivation;
+mod edit;
+mod estimates;
 mod factors;
 mod parameters;
+mod real;
 mod rewrite;
 mod terms;
 mod whole;
 
-use self::rewrite::rewrite;
-use super::linearization::about;
-use super::{Equilibrium, Model};
-use crate::algebra::{Expression, NodeKind, Rational};
-use crate::lti::TransferFunction;
-use std::collections::BTreeMap;
-
-/// What a transfer function is derived from.
-#[derive(Clone, Copy, Debug)]
-pub struct Derivation<'a> {
-    pub model: &'a Model,
-    pub parameters: &'a BTreeMap<String, Rational>,
-    /// Units by parameter: two of the same unit are taken for one another.
-    pub units: &'a BTreeMap<String, String>,
-    pub at: &'a Equilibrium,
-    /// The other operating points that are asked about, each with its title.
-    pub others: &'a [(String, &'a Equilibrium)],
-    pub input: &'a str,
-    pub output: &'a str,
-}
+use self::edit::Edit;
+pub use derivation::Derivation;
+pub use estimates::{Estimates, Pair};
+pub use real::{RealFunction, RealPolynomial};
 
 /// One thing done wrong on the way.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Mistake {
     pub kind: MistakeKind,
     /// A clause: ``the term `b*x'` of equation 1 is missing``; formulas stand in backticks.
@@ -38,6 +27,7 @@ pub struct Mistake {
     pub change: String,
     /// Where in the equations; none when it is made elsewhere.
     pub places: Vec<Place>,
+    edit: Edit,
 }
 
 /// A part of an equation: which one, counted from 0, and bytes `start..end` of it as printed.
@@ -48,7 +38,14 @@ pub struct Place {
     pub end: usize,
 }
 
-/// The likeliest first: the order in which explanations are given.
+impl Place {
+    /// Whether `inner` is it or a part of it.
+    pub fn holds(&self, inner: &Self) -> bool {
+        self.equation == inner.equation && self.start <= inner.start && inner.end <= self.end
+    }
+}
+
+/// The likeliest first: among equally likely explanations the order in which they are given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum MistakeKind {
     OtherPoint,
@@ -58,16 +55,41 @@ pub enum MistakeKind {
     TermDropped,
     PowerDropped,
     FactorDropped,
+    ParameterMistaken,
     ParametersSwapped,
     ParameterDoubled,
     ParameterHalved,
+    Degrees,
     Origin,
     OtherOutput,
     OtherInput,
     Inverted,
+    Cancelled,
+    ParameterScaled,
 }
 
 impl MistakeKind {
+    pub const ALL: [Self; 18] = [
+        Self::OtherPoint,
+        Self::WholeSign,
+        Self::TermSign,
+        Self::PointSign,
+        Self::TermDropped,
+        Self::PowerDropped,
+        Self::FactorDropped,
+        Self::ParameterMistaken,
+        Self::ParametersSwapped,
+        Self::ParameterDoubled,
+        Self::ParameterHalved,
+        Self::Degrees,
+        Self::Origin,
+        Self::OtherOutput,
+        Self::OtherInput,
+        Self::Inverted,
+        Self::Cancelled,
+        Self::ParameterScaled,
+    ];
+
     /// Stable, dotted: `term.sign`.
     pub fn code(self) -> &'static str {
         match self {
@@ -78,48 +100,53 @@ impl MistakeKind {
             Self::TermDropped => "term.dropped",
             Self::PowerDropped => "factor.power",
             Self::FactorDropped => "factor.dropped",
+            Self::ParameterMistaken => "parameter.mistaken",
             Self::ParametersSwapped => "parameter.swapped",
             Self::ParameterDoubled => "parameter.doubled",
             Self::ParameterHalved => "parameter.halved",
+            Self::Degrees => "units.degrees",
             Self::Origin => "function.origin",
             Self::OtherOutput => "output.other",
             Self::OtherInput => "input.other",
             Self::Inverted => "function.inverted",
+            Self::Cancelled => "function.cancelled",
+            Self::ParameterScaled => "parameter.scaled",
+        }
+    }
+
+    /// How likely it is beside the others, unless a lab says otherwise: a choice, from marking by hand.
+    pub fn weight(self) -> u32 {
+        match self {
+            Self::OtherPoint => 40,
+            Self::WholeSign => 36,
+            Self::TermSign => 32,
+            Self::PointSign => 28,
+            Self::TermDropped => 24,
+            Self::PowerDropped => 18,
+            Self::FactorDropped => 14,
+            Self::ParameterMistaken => 12,
+            Self::ParametersSwapped => 10,
+            Self::ParameterDoubled => 8,
+            Self::ParameterHalved | Self::Degrees | Self::Origin => 6,
+            Self::OtherOutput | Self::OtherInput | Self::Inverted => 4,
+            Self::Cancelled => 3,
+            Self::ParameterScaled => 2,
         }
     }
 }
 
-/// Every single mistake and the transfer function it leads to, nothing cancelled; in the order of the equations.
-///
-/// What cannot be solved, or never moves, is left out. Several may lead to the same function, and some to the right one.
-pub fn mistakes(of: &Derivation<'_>) -> Vec<(Mistake, TransferFunction)> {
-    let mut all = terms::mistakes(of);
-    all.extend(calls::mistakes(of));
-    all.extend(factors::mistakes(of));
-    all.extend(parameters::mistakes(of));
-    all.extend(whole::mistakes(of));
-    all.retain(|(_, function)| !function.num.is_zero());
-    all
-}
-
-impl Derivation<'_> {
-    /// What comes out, whether or not the equations balance at the point: a derivation with a mistake in it need not.
-    fn result(&self) -> Option<TransferFunction> {
-        about(self.model, self.parameters, self.at, self.input, self.output).ok()
-    }
-
-    /// With the node at bytes `place` of equation `index` (from 0) made another one.
-    fn with_node(
-        &self,
-        index: usize,
-        place: (usize, usize),
-        other: &dyn Fn(&Expression) -> NodeKind,
-    ) -> Option<TransferFunction> {
-        let mut model = self.model.clone();
-        let equation = model.equations.get_mut(index)?;
-        equation.left = rewrite(&equation.left, place, other);
-        equation.right = rewrite(&equation.right, place, other);
-        Derivation { model: &model, ..*self }.result()
+impl Mistake {
+    /// Whether both can be made in one derivation, and are then two.
+    pub fn combines_with(&self, other: &Self) -> bool {
+        use MistakeKind::{Degrees, OtherInput, OtherOutput, OtherPoint, PointSign};
+        let either = |a: &Self, b: &Self| {
+            // What is said of a point or of an output holds of no other.
+            matches!(
+                (a.kind, b.kind),
+                (PointSign, OtherPoint) | (Degrees, OtherOutput | OtherInput | OtherPoint)
+            ) || (a.kind == PointSign && b.kind == Degrees && matches!(b.edit, Edit::Rest(..)))
+        };
+        self.edit.combines_with(&other.edit) && !either(self, other) && !either(other, self)
     }
 }
 
@@ -127,12 +154,19 @@ impl Derivation<'_> {
 mod tests {
     use super::*;
     use crate::algebra::{parse_decimal, polynomial_text};
-    use crate::model::Coordinate;
+    use crate::model::{Coordinate, Equilibrium, Model};
+    use std::collections::BTreeMap;
 
     /// With a = 2, b = 3, l = 5, k = 7; the rows are expected among the mistakes.
     #[track_caller]
     fn check(equation: &str, at: &str, rows: &[(&str, &str, &str, &str)]) {
-        let x = Coordinate { name: "x".into(), unit: "m".into(), description: String::new() };
+        check_in("m", equation, at, rows);
+    }
+
+    /// With x in that unit.
+    #[track_caller]
+    fn check_in(unit: &str, equation: &str, at: &str, rows: &[(&str, &str, &str, &str)]) {
+        let x = Coordinate { name: "x".into(), unit: unit.to_owned(), description: String::new() };
         let names = ["a", "b", "l", "k"].map(str::to_owned).to_vec();
         let model = Model::new(vec![x], vec!["F".into()], names, &[equation]).unwrap();
         let parameters: BTreeMap<_, _> = [("a", "2"), ("b", "3"), ("l", "5"), ("k", "7")]
@@ -145,27 +179,30 @@ mod tests {
             Equilibrium::parse(&model, &parameters, &[("x".to_owned(), text.to_owned())]).unwrap()
         };
         let (here, top) = (point(at), point("pi"));
-        let others = [("At the top".to_owned(), &top)];
         let of = Derivation {
-            model: &model,
-            parameters: &parameters,
-            units: &units,
-            at: &here,
-            others: &others,
-            input: "F",
-            output: "x",
+            units,
+            mistaken: [("k".to_owned(), vec![("8".to_owned(), parse_decimal("8").unwrap())])].into(),
+            at: here,
+            others: vec![("At the top".to_owned(), top)],
+            input: "F".to_owned(),
+            input_unit: "N".to_owned(),
+            output: "x".to_owned(),
+            output_unit: unit.to_owned(),
+            model,
+            parameters,
         };
-        let all = mistakes(&of);
+        let listed = of.mistakes();
+        let all: Vec<_> = listed.into_iter().filter_map(|m| Some((of.function(&[&m])?, m))).collect();
         for (code, change, num, den) in rows {
             let wanted = |m: &Mistake| m.kind.code() == *code && m.change == *change;
-            let found = all.iter().find(|(mistake, _)| wanted(mistake));
-            let list: Vec<_> = all.iter().map(|(m, _)| (m.kind.code(), &m.change)).collect();
-            let (_, function) = found.unwrap_or_else(|| panic!("{code}, {change}: {list:#?}"));
+            let found = all.iter().find(|(_, mistake)| wanted(mistake));
+            let list: Vec<_> = all.iter().map(|(_, m)| (m.kind.code(), &m.change)).collect();
+            let (function, _) = found.unwrap_or_else(|| panic!("{code}, {change}: {list:#?}"));
             let (top, bottom) =
                 (polynomial_text(&function.num, "s", 5), polynomial_text(&function.den, "s", 5));
             assert_eq!((top.as_str(), bottom.as_str()), (*num, *den), "{code}, {change}");
         }
-        assert!(all.iter().all(|(mistake, _)| !mistake.words.is_empty()));
+        assert!(all.iter().all(|(_, mistake)| !mistake.words.is_empty()));
     }
 
     #[test]
@@ -211,6 +248,35 @@ mod tests {
             "0",
             &[("point.other", "at: At the top", "-1", "2s^2 + 3s - 7")],
         );
+        check(
+            "F*cos(x) = a*x''*cos(x) + b*x' + k*sin(x)",
+            "pi",
+            &[
+                // instead of 1/(2s² - 3s + 7)
+                ("point.sign", "equation 1: cos(x) -> -cos(x) no. 2", "-1", "2s^2 + 3s - 7"),
+                ("point.sign", "every cos(x) -> -cos(x)", "1", "2s^2 + 3s - 7"),
+                ("point.sign", "every cos(x) -> -cos(x), every sin(x) -> -sin(x)", "1", "2s^2 + 3s + 7"),
+            ],
+        );
+    }
+
+    #[test]
+    fn degrees_for_radians() {
+        check_in(
+            "rad",
+            "F = a*x'' + b*x' + k*sin(x)",
+            "pi",
+            &[
+                // instead of 1/(2s² + 3s - 7); cos(180 rad) is -0.5985
+                ("units.degrees", "x in degrees", "57.296", "2s^2 + 3s - 7"),
+                ("units.degrees", "at: x = 180", "1", "2s^2 + 3s - 4.1892"),
+            ],
+        );
+    }
+
+    #[test]
+    fn a_factor_cancelled_that_is_not_shared() {
+        check("F = a*x'' + b*x' + k*x", "0", &[("function.sign", "G -> -G", "-1", "2s^2 + 3s + 7")]);
     }
 
     #[test]
@@ -238,6 +304,9 @@ mod tests {
                 ("parameter.swapped", "a <-> k", "1", "7s^2 + 3s + 10"),
                 ("parameter.doubled", "l -> 2*l", "1", "2s^2 + 3s + 70"),
                 ("parameter.halved", "l -> l/2", "1", "2s^2 + 3s + 17.5"),
+                ("parameter.mistaken", "k -> 8", "1", "2s^2 + 3s + 40"),
+                ("parameter.scaled", "b -> 10*b", "1", "2s^2 + 30s + 35"),
+                ("parameter.scaled", "a -> a/1000", "1", "0.002s^2 + 3s + 35"),
                 ("function.sign", "G -> -G", "-1", "2s^2 + 3s + 35"),
                 ("function.inverted", "G -> 1/G", "2s^2 + 3s + 35", "1"),
             ],
@@ -249,7 +318,9 @@ mod tests {
                 // instead of 1/(2s² + 3s)
                 ("function.origin", "G -> s*G", "s", "2s^2 + 3s"),
                 ("function.origin", "G -> G/s", "1", "2s^3 + 3s^2"),
+                // 1/(s (2s + 3)): the numerator has no s, and nothing of it would be left.
             ],
         );
+        check("F = a*x'' + b*x'", "0", &[]);
     }
 }

@@ -1,49 +1,89 @@
+use super::edit::{Edit, ParameterEdit};
 use super::{Derivation, Mistake, MistakeKind};
 use crate::algebra::Rational;
-use crate::lti::TransferFunction;
-use std::collections::BTreeMap;
 
 /// Units of what is easily taken for its double or its half: lengths and diameters.
 const LENGTHS: [&str; 3] = ["m", "cm", "mm"];
 
-/// Two parameters of the same unit taken for one another; a length taken twice or half as long.
-pub(super) fn mistakes(of: &Derivation<'_>) -> Vec<(Mistake, TransferFunction)> {
+/// Powers of ten by which a parameter is off when its unit, or its decimal point, is.
+const SHIFTS: [isize; 6] = [1, -1, 2, -2, 3, -3];
+
+/// Two parameters of the same unit taken for one another; a length taken twice or half as long; a value that is often used
+/// wrongly; a value off by a power of ten.
+pub(super) fn mistakes(of: &Derivation) -> Vec<Mistake> {
     let mut all = Vec::new();
-    let mut add = |mistake: Mistake, parameters: &BTreeMap<String, Rational>| {
-        let result = Derivation { parameters, ..*of }.result();
-        all.extend(result.map(|function| (mistake, function)));
+    let mut add = |kind, words: String, change: String, edit: ParameterEdit| {
+        all.push(Mistake { kind, words, change, places: Vec::new(), edit: Edit::Parameter(edit) });
     };
     let used: Vec<(&String, &Rational, &str)> = of
         .model
         .parameters
         .iter()
-        .filter_map(|name| Some((name, of.parameters.get(name)?, of.units.get(name)?.trim())))
+        .filter(|name| is_used(of, name))
+        .filter_map(|name| {
+            Some((name, of.parameters.get(name)?, of.units.get(name).map_or("", |unit| unit.trim())))
+        })
         .collect();
     for (index, (first, value, unit)) in used.iter().enumerate() {
-        for (second, other, _) in used[index + 1..].iter().filter(|(_, _, same)| same == unit) {
-            let mut parameters = of.parameters.clone();
-            parameters.insert((*first).clone(), (*other).clone());
-            parameters.insert((*second).clone(), (*value).clone());
-            let mistake = Mistake {
-                kind: MistakeKind::ParametersSwapped,
-                words: format!("`{first}` and `{second}` are taken for one another"),
-                change: format!("{first} <-> {second}"),
-                places: Vec::new(),
-            };
-            add(mistake, &parameters);
+        let same = |(_, other, its_unit): &&(&String, &Rational, &str)| its_unit == unit && other != value;
+        for (second, _, _) in used[index + 1..].iter().filter(same) {
+            add(
+                MistakeKind::ParametersSwapped,
+                format!("`{first}` and `{second}` are taken for one another"),
+                format!("{first} <-> {second}"),
+                ParameterEdit::Swapped((*first).clone(), (*second).clone()),
+            );
         }
     }
-    let two = Rational::from(2);
-    for (name, value, _) in used.into_iter().filter(|(_, _, unit)| LENGTHS.contains(unit)) {
-        for (kind, part, much, change) in [
-            (MistakeKind::ParameterDoubled, value * &two, "twice", format!("{name} -> 2*{name}")),
-            (MistakeKind::ParameterHalved, value / &two, "half", format!("{name} -> {name}/2")),
-        ] {
-            let mut parameters = of.parameters.clone();
-            parameters.insert(name.clone(), part);
-            let words = format!("`{name}` is taken {much} as large");
-            add(Mistake { kind, words, change, places: Vec::new() }, &parameters);
+    let two = || Rational::from(2);
+    for (name, _, _) in used.iter().filter(|(_, _, unit)| LENGTHS.contains(unit)) {
+        let scaled = |factor| ParameterEdit::Scaled((*name).clone(), factor);
+        add(
+            MistakeKind::ParameterDoubled,
+            format!("`{name}` is taken twice as large"),
+            format!("{name} -> 2*{name}"),
+            scaled(two()),
+        );
+        add(
+            MistakeKind::ParameterHalved,
+            format!("`{name}` is taken half as large"),
+            format!("{name} -> {name}/2"),
+            scaled(Rational::ONE / two()),
+        );
+    }
+    for (name, _, _) in &used {
+        for (text, value) in of.mistaken.get(*name).into_iter().flatten() {
+            add(
+                MistakeKind::ParameterMistaken,
+                format!("`{name}` is taken as {text}"),
+                format!("{name} -> {text}"),
+                ParameterEdit::Set((*name).clone(), value.clone()),
+            );
+        }
+    }
+    for (name, value, _) in used.iter().filter(|(_, value, _)| !value.is_zero()) {
+        for shift in SHIFTS {
+            let factor = Rational::from(10).pow(shift);
+            let (much, change) = match shift {
+                1.. => ("large", format!("{name} -> {}*{name}", 10u32.pow(shift.unsigned_abs() as u32))),
+                _ => ("small", format!("{name} -> {name}/{}", 10u32.pow(shift.unsigned_abs() as u32))),
+            };
+            let _ = value;
+            add(
+                MistakeKind::ParameterScaled,
+                format!(
+                    "`{name}` is {} times too {much} (a unit, or the decimal point)",
+                    10u32.pow(shift.unsigned_abs() as u32)
+                ),
+                change,
+                ParameterEdit::Scaled((*name).clone(), factor),
+            );
         }
     }
     all
+}
+
+fn is_used(of: &Derivation, name: &str) -> bool {
+    let sides = of.model.equations.iter().flat_map(|equation| [&equation.left, &equation.right]);
+    sides.flat_map(crate::algebra::Expression::symbols).any(|symbol| symbol.name == name)
 }

@@ -1,36 +1,35 @@
-use super::rewrite::negated;
+use super::edit::{Edit, Replacement};
 use super::{Derivation, Mistake, MistakeKind, Place};
-use crate::algebra::{Expression, NodeKind, Rational};
-use crate::lti::TransferFunction;
+use crate::algebra::{Expression, NodeKind};
 
 /// Every summand of every equation, inside parentheses too: its sign turned, and dropped.
-pub(super) fn mistakes(of: &Derivation<'_>) -> Vec<(Mistake, TransferFunction)> {
+pub(super) fn mistakes(of: &Derivation) -> Vec<Mistake> {
     let mut all = Vec::new();
     for (index, equation) in of.model.equations.iter().enumerate() {
         let text = |node: &Expression| equation.text.get(node.start..node.end).unwrap_or_default().trim();
         for term in terms(&equation.left).into_iter().chain(terms(&equation.right)) {
-            let (place, number, name) = ((term.node.start, term.node.end), index + 1, text(term.node));
+            let (number, name) = (index + 1, text(term.node));
+            let place = Place { equation: index, start: term.node.start, end: term.node.end };
             let what = match term.sum {
                 Some(sum) => format!("`{name}` in `{}` of equation {number}", text(sum)),
                 None => format!("the term `{name}` of equation {number}"),
             };
-            let mut add = |kind, changed: String, words: String, result: Option<TransferFunction>| {
+            let mut add = |kind, changed: String, words: String, to| {
                 let change = format!("equation {number}: {name} -> {changed}");
-                let places = vec![Place { equation: index, start: place.0, end: place.1 }];
-                let mistake = Mistake { kind, words, change, places };
-                all.extend(result.map(|function| (mistake, function)));
+                let places = vec![place];
+                all.push(Mistake { kind, words, change, edit: Edit::Nodes(places.clone(), to), places });
             };
             add(
                 MistakeKind::TermSign,
                 format!("-{name}"),
                 format!("{what} has the wrong sign"),
-                of.with_node(index, place, &negated),
+                Replacement::Negated,
             );
             add(
                 MistakeKind::TermDropped,
                 "0".to_owned(),
                 format!("{what} is missing"),
-                of.with_node(index, place, &|_| NodeKind::Number(Rational::ZERO)),
+                Replacement::Number(0),
             );
         }
     }

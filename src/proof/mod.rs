@@ -1,6 +1,8 @@
 //! A lab proves itself: its key agrees with stated values and with a second route, its model answer earns everything,
 //! a blank nothing.
 
+mod mistakes;
+
 use crate::grading::{Catalogue, ItemScore, Verdict, grade};
 use crate::lab::{LabDefinition, Points};
 use crate::reference::{Reference, check_expectations, second_route};
@@ -29,6 +31,7 @@ pub fn prove(lab: &LabDefinition, reference: &Reference) -> Vec<Check> {
     checks.push(blank_earns_nothing(lab, reference));
     checks.push(template_is_blank(lab));
     checks.extend(answers_of_other_points_are_told_apart(lab, reference));
+    checks.extend(mistakes::mistakes_are_told_apart(lab, reference));
     checks
 }
 

@@ -1,0 +1,151 @@
+use super::Check;
+use crate::lab::{self, LabDefinition, ModelDefinition, OperatingPointDefinition};
+use crate::lti::TransferFunction;
+use crate::model::Mistake;
+use crate::reference::Reference;
+
+/// Mistakes that no answer tells apart are listed; one that no answer tells from the truth must be declared by the lab.
+///
+/// A declaration that no mistake needs fails as well.
+pub(super) fn mistakes_are_told_apart(lab: &LabDefinition, reference: &Reference) -> Vec<Check> {
+    let mut checks = Vec::new();
+    let mut needed = vec![false; lab.mistakes.without_effect.len()];
+    for model in &lab.models {
+        for point in model.operating_points.iter().filter(|point| is_asked(lab, model, point)) {
+            let accepted = right_functions(reference, model, point);
+            let led = Led::new(lab, model, point, &accepted);
+            for (needed, entry) in needed.iter_mut().zip(&lab.mistakes.without_effect) {
+                *needed |= led.nowhere.iter().any(|mistake| entry.covers(mistake, &model.model));
+            }
+            checks.push(led.apart(model, point));
+            checks.push(led.beside_the_truth(lab, model, point));
+        }
+    }
+    for (entry, _) in lab.mistakes.without_effect.iter().zip(needed).filter(|(_, needed)| !needed) {
+        checks.push(Check {
+            what: format!("without effect: `{}`", entry.text),
+            found: "is declared, but every mistake it covers changes a transfer function".to_owned(),
+            holds: false,
+            span: Some(entry.span),
+        });
+    }
+    checks
+}
+
+/// Where mistakes lead.
+struct Led {
+    /// Mistakes that lead to the same wrong function.
+    groups: Vec<Vec<Mistake>>,
+    /// Mistakes that lead to a right one.
+    nowhere: Vec<Mistake>,
+}
+
+impl Led {
+    fn new(
+        lab: &LabDefinition,
+        model: &ModelDefinition,
+        point: &OperatingPointDefinition,
+        accepted: &[&TransferFunction],
+    ) -> Self {
+        let derivation = model.derivation(point, &lab.parameters);
+        let mut known: Vec<TransferFunction> = Vec::new();
+        let mut own = Self { groups: Vec::new(), nowhere: Vec::new() };
+        for mistake in derivation.mistakes() {
+            if lab.mistakes.weight(mistake.kind.code()) == 0 {
+                continue;
+            }
+            let Some(function) = derivation.function(&[&mistake]) else { continue };
+            let comparable = function.cancelled().0.monic();
+            if accepted.iter().any(|right| right.equals(&comparable)) {
+                own.nowhere.push(mistake);
+                continue;
+            }
+            match known.iter().position(|other| *other == comparable) {
+                Some(place) => own.groups[place].push(mistake),
+                None => {
+                    known.push(comparable);
+                    own.groups.push(vec![mistake]);
+                }
+            }
+        }
+        own
+    }
+
+    fn apart(&self, model: &ModelDefinition, point: &OperatingPointDefinition) -> Check {
+        let all: usize = self.groups.iter().map(Vec::len).sum();
+        let alike: Vec<String> = self
+            .groups
+            .iter()
+            .filter(|group| group.len() > 1)
+            .map(|group| format!("\n        {}", changes(group).join("  =  ")))
+            .collect();
+        let rest = match alike.len() {
+            0 => String::new(),
+            _ => format!("; no answer tells these apart:{}", alike.concat()),
+        };
+        Check {
+            what: format!("mistakes at {}.{}", model.id, point.id),
+            found: format!("{all} mistakes lead to {} different wrong functions{rest}", self.groups.len()),
+            holds: true,
+            span: None,
+        }
+    }
+
+    fn beside_the_truth(
+        &self,
+        lab: &LabDefinition,
+        model: &ModelDefinition,
+        point: &OperatingPointDefinition,
+    ) -> Check {
+        let declared = |mistake: &&Mistake| {
+            lab.mistakes.without_effect.iter().any(|entry| entry.covers(mistake, &model.model))
+        };
+        let undeclared: Vec<Mistake> =
+            self.nowhere.iter().filter(|mistake| !declared(mistake)).cloned().collect();
+        Check {
+            what: format!("mistakes without effect at {}.{}", model.id, point.id),
+            found: match (undeclared.as_slice(), self.nowhere.len()) {
+                ([], 0) => "there are none".to_owned(),
+                ([], count) => format!("{count}, all declared"),
+                (undeclared, _) => format!(
+                    "no answer shows {}; declare what is meant to be so under `mistakes: {{without_effect: […]}}`",
+                    list(&changes(undeclared))
+                ),
+            },
+            holds: undeclared.is_empty(),
+            span: (!undeclared.is_empty()).then_some(point.span),
+        }
+    }
+}
+
+fn changes(mistakes: &[Mistake]) -> Vec<String> {
+    mistakes.iter().map(|mistake| format!("`{}`", mistake.change)).collect()
+}
+
+fn list(texts: &[String]) -> String {
+    match texts {
+        [] => String::new(),
+        [only] => only.clone(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
+
+fn right_functions<'a>(
+    reference: &'a Reference,
+    model: &ModelDefinition,
+    point: &OperatingPointDefinition,
+) -> Vec<&'a TransferFunction> {
+    let models = reference.models.iter().filter(|known| known.id == model.id);
+    let points = models.flat_map(|known| &known.operating_points).filter(|known| known.id == point.id);
+    points.flat_map(|known| &known.accepted).map(|one| &one.linearization.transfer_function).collect()
+}
+
+/// Whether a criterion judges the transfer function there.
+fn is_asked(lab: &LabDefinition, model: &ModelDefinition, point: &OperatingPointDefinition) -> bool {
+    lab.questions.iter().flat_map(|question| &question.criteria).any(|criterion| match &criterion.check {
+        lab::Check::Structure { of }
+        | lab::Check::Numerator { of, .. }
+        | lab::Check::Denominator { of, .. } => of.model == model.id && of.operating_point == point.id,
+        _ => false,
+    })
+}
