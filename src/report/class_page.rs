@@ -5,6 +5,7 @@ use super::figures::distribution;
 use super::kit::ReportKit;
 use super::numbers::{counted, number};
 use super::pictures::draw;
+use super::prose;
 use super::view::{BarView, FigureView, provisional_words};
 use crate::lab::Points;
 use crate::source::sanitize;
@@ -21,7 +22,7 @@ pub struct ClassPage {
     questions: Vec<MeanView>,
     review: Vec<ReviewGroup>,
     review_words: String,
-    alike_words: String,
+    alike_html: String,
     rows: Vec<RowView>,
 }
 
@@ -52,6 +53,10 @@ struct AlikeView {
     /// As `alike:` of the marks file names it; empty for answers on their own.
     id: String,
     amount: String,
+    /// One answer only.
+    single: bool,
+    /// `1 of 1`, when it is the same for all of the group.
+    marks: String,
     /// The words found, quoted.
     found: String,
     conflicts: Vec<String>,
@@ -102,8 +107,11 @@ pub fn page(kit: &ReportKit, summary: &ClassSummary) -> ClassPage {
                 counted(review.len(), "criterion").replace("criterions", "criteria")
             ),
         },
-        alike_words: if review.iter().any(|group| group.groups.iter().any(|like| !like.id.is_empty())) {
-            "Like answers stand together: below `alike:` in the marks file, one decision serves all of a group.".to_owned()
+        alike_html: if review.iter().any(|group| group.groups.iter().any(|like| !like.id.is_empty())) {
+            prose::sentences(
+                "Like answers stand together, under the name that stands for all of them below `alike:` in the marks \
+                 file: one decision serves them all.",
+            )
         } else {
             String::new()
         },
@@ -191,7 +199,10 @@ fn alike(entries: &[&ReviewEntry]) -> Vec<AlikeView> {
 fn alike_view(id: Option<&str>, entries: &[&ReviewEntry]) -> AlikeView {
     // What is said of one holds for all of a group, and for none of those on their own.
     let first = id.and(entries.first());
+    let marks = |entry: &ReviewEntry| format!("{} of {}", entry.earned, entry.possible);
+    let same = first.map(|one| marks(one)).filter(|one| entries.iter().all(|entry| marks(entry) == *one));
     AlikeView {
+        single: entries.len() == 1,
         id: id.unwrap_or_default().to_owned(),
         amount: counted(entries.len(), "answer"),
         found: first.map_or_else(String::new, |one| sanitize(&one.found)),
@@ -203,9 +214,10 @@ fn alike_view(id: Option<&str>, entries: &[&ReviewEntry]) -> AlikeView {
             .map(|entry| EntryView {
                 student: sanitize(&entry.student),
                 link: entry.link.clone(),
-                marks: format!("{} of {}", entry.earned, entry.possible),
+                marks: if same.is_some() { String::new() } else { marks(entry) },
             })
             .collect(),
+        marks: same.unwrap_or_default(),
     }
 }
 

@@ -306,7 +306,8 @@ fn three_thousand_submissions_make_a_lean_class_page() {
     check_page("class", &html);
     assert!(html.len() < 3_000 * 600, "{} bytes", html.len());
     assert!(html.contains("3000 marks on 1 criterion wait for a person"));
-    assert!(html.contains("<code>said-00000001</code> 1000 answers, with “swings”"));
+    assert!(html.contains("<strong>1000 answers</strong>, 0.5 of 1 each, with “swings”"));
+    assert!(html.contains("<code class=\"muted\">said-00000001</code>"));
 }
 
 #[test]
