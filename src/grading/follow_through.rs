@@ -1,4 +1,5 @@
 use super::accepted::{Accepted, transfer_function_of};
+use super::claims;
 use super::closeness::percent;
 use super::grade::{Field, Grader};
 use super::guard::{self, Guard};
@@ -122,17 +123,13 @@ impl Follower<'_> {
             .map(|(response, word)| (&response.what.features, *word.what))
             .collect();
         let response = own.response(kind)?;
-        let other_points: Vec<&str> = self
-            .lab
-            .models
-            .iter()
-            .filter(|model| model.id == of.model)
-            .flat_map(|model| &model.operating_points)
-            .map(|point| point.id.as_str())
-            .filter(|id| *id != of.operating_point)
-            .collect();
         let behaviour = (&response.features, own.stability);
-        let mark = own_claims::judge(self.criterion.points, prose, &other_points, &known, behaviour)?;
+        let mark = own_claims::judge(
+            self.criterion.points,
+            &claims::find(prose, described, self.lab),
+            &known,
+            behaviour,
+        )?;
         let found = self.base.evidence.found.clone();
         let conflicts = self.base.evidence.conflicts.clone();
         Some(Mark { evidence: Evidence { found, conflicts, ..mark.evidence }, ..mark })
