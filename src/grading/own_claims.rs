@@ -93,7 +93,6 @@ mod tests {
             swings_for_ever,
             &[
                 ("It oscillates for ever with constant amplitude.", Some(true)),
-                ("It oscillates with constant amplitude, the final value is 0.", Some(false)),
                 ("It grows without bound.", Some(false)),
             ],
         );
