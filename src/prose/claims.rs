@@ -298,6 +298,11 @@ const DIES_AWAY: &[&str] = &[
     "amplitude shrinks",
     "smaller and smaller",
     "weaker and weaker",
+    "smaller with time",
+    "decreases with time",
+    "smaller than the one before",
+    "smaller than the previous one",
+    "smaller than the last one",
 ];
 const GROWS: &[&str] = &[
     "grows exponentially",
@@ -353,6 +358,13 @@ const GROWS: &[&str] = &[
     "increasing amplitude",
     "larger and larger",
     "bigger and bigger",
+    "larger with time",
+    "bigger with time",
+    "grows with time",
+    "increases with time",
+    "larger than the one before",
+    "larger than the previous one",
+    "larger than the last one",
 ];
 const CONSTANT_AMPLITUDE: &[&str] = &[
     "constant amplitude",
@@ -417,7 +429,7 @@ fn endless() -> Vec<Phrase> {
     let mut all: Vec<Phrase> = VERBS
         .iter()
         .flat_map(|verb| {
-            ENDLESS.iter().map(move |endless| Phrase::new(&format!("{verb} {endless}")).with_between(2))
+            ENDLESS.iter().map(move |endless| Phrase::new(&format!("{verb} {endless}")).with_between(3))
         })
         .collect();
     let whole = [
@@ -758,6 +770,10 @@ mod tests {
             ("The pendulum continues to rotate forever.", "it goes on for ever"),
             ("It swings indefinitely.", "it goes on for ever"),
             ("It does not oscillate for ever.", "it does not go on for ever"),
+            ("The pendulum starts to rotate about its axis indefinitely.", "it goes on for ever"),
+            ("In our simulation it gets larger with time.", "it grows without bound"),
+            ("Each swing is a little larger than the one before.", "it grows without bound"),
+            ("Each swing is smaller than the previous one.", "it settles"),
             ("It decays for ever, more and more slowly.", "it settles"),
             ("It swings with constant amplitude.", "its amplitude is constant"),
             ("It is a sustained oscillation.", "its amplitude is constant"),
