@@ -5,6 +5,8 @@ mod context;
 mod number;
 mod phrase;
 mod truth;
+mod values;
+mod vocabulary;
 mod words;
 
 pub use claims::{Claim, ClaimKind, Quantity, claims};

@@ -62,16 +62,13 @@ pub(super) fn number_at(text: &str, start: usize, unit: Unit) -> Option<(Claimed
     let (mut number, length) = plain(rest)?;
     let before = text.get(..start)?;
     let mut marks = before.chars().rev();
-    if let Some(sign) = marks.next().filter(|&c| is_minus(c)) {
+    if marks.next().is_some_and(is_minus) {
         // `5-3` is no value, and neither is the end of a word.
         if marks.next().is_some_and(char::is_alphanumeric) {
             return None;
         }
-        debug_assert!(is_minus(sign));
         number.value = -number.value;
-    } else if before
-        .ends_with(|c: char| matches!(c, '±' | '/' | '^' | '*' | '·' | '×' | '<' | '>' | '≤' | '≥'))
-    {
+    } else if before.ends_with(['±', '/', '^', '*', '·', '×', '<', '>', '≤', '≥']) {
         return None;
     }
     fits(&rest[length..], unit).then_some((number, start + length))

@@ -164,3 +164,100 @@ fn peak(features: &Features, number: ClaimedNumber) -> Option<bool> {
     let later = smaller && (swings(features.shape) || negative(number.value) == negative(largest.value));
     if later { None } else { Some(false) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::claims;
+    use crate::algebra::Polynomial;
+    use crate::lti::{Features, InputKind, Response, TransferFunction, stability};
+
+    /// What the only claim of each sentence is of the impulse response of `num` over `den`.
+    #[track_caller]
+    fn check(num: &[i64], den: &[i64], rows: &[(&str, Option<bool>)]) {
+        let g =
+            TransferFunction::new(Polynomial::from_integers(num), Polynomial::from_integers(den)).unwrap();
+        let features = Features::of(&Response::new(&g, InputKind::Impulse).unwrap());
+        for (sentence, want) in rows {
+            let found = claims(sentence, &[]);
+            let [claim] = found.as_slice() else { panic!("{sentence}: {found:?}") };
+            assert_eq!(claim.holds(&features, stability(&g.den)), *want, "{sentence}");
+        }
+    }
+
+    #[test]
+    fn of_a_decaying_oscillation() {
+        // e⁻ᵗ sin 2t
+        check(
+            &[2],
+            &[1, 2, 5],
+            &[
+                ("It is stable.", Some(true)),
+                ("It is not stable.", Some(false)),
+                ("It is unstable.", Some(false)),
+                ("It is marginally stable.", Some(false)),
+                ("It oscillates.", Some(true)),
+                ("It does not oscillate.", Some(false)),
+                ("It settles.", Some(true)),
+                ("It grows without bound.", Some(false)),
+                ("It goes on for ever.", Some(false)),
+                ("It does not go on for ever.", Some(true)),
+                ("It has constant amplitude.", Some(false)),
+                ("It starts at 0.", Some(true)),
+                ("It starts at 1.", Some(false)),
+                ("It returns to zero.", Some(true)),
+                ("The final value is 2.5.", Some(false)),
+                ("The period is 3.1 s.", Some(true)),
+                ("The period is 2 s.", Some(false)),
+                ("The period is about 3 s.", Some(true)),
+                // e^(−0.5536) sin 1.1071 = 0.514
+                ("The peak is 0.51.", Some(true)),
+                ("The peak is 1.4.", Some(false)),
+            ],
+        );
+    }
+
+    #[test]
+    fn of_a_swing_that_stays() {
+        // ½ sin 2t
+        check(
+            &[1],
+            &[1, 0, 4],
+            &[
+                ("It is stable.", None),
+                ("It is not stable.", Some(true)),
+                ("It is unstable.", None),
+                ("It is not unstable.", Some(true)),
+                ("It is marginally stable.", Some(true)),
+                ("It settles.", Some(false)),
+                ("It goes on for ever.", Some(true)),
+                ("It has constant amplitude.", Some(true)),
+                ("It grows without bound.", Some(false)),
+                ("It returns to zero.", Some(false)),
+            ],
+        );
+    }
+
+    #[test]
+    fn of_growth() {
+        // eᵗ
+        check(
+            &[1],
+            &[1, -1],
+            &[
+                ("It is stable.", Some(false)),
+                ("It is unstable.", Some(true)),
+                ("It oscillates.", Some(false)),
+                ("It settles.", Some(false)),
+                ("It does not settle.", Some(true)),
+                ("It grows without bound.", Some(true)),
+                ("It goes on for ever.", Some(true)),
+                ("It starts at 1.", Some(true)),
+                ("It returns to zero.", Some(false)),
+                ("The final value is not 0.", Some(true)),
+                ("The period is 2 s.", Some(false)),
+            ],
+        );
+        // A swing may hide: eᵗ and e⁻ᵗ sin 2t.
+        check(&[1], &[1, 1, 3, -5], &[("It oscillates.", None), ("It grows without bound.", Some(true))]);
+    }
+}

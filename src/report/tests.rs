@@ -292,7 +292,7 @@ fn three_thousand_submissions_make_a_lean_class_page() {
         why: "prose is judged by its words".into(),
         earned: Points(50),
         possible: Points(100),
-        alike: (i % 3 > 0).then(|| format!("said-0000000{}", i % 3)),
+        alike: (!i.is_multiple_of(3)).then(|| format!("said-0000000{}", i % 3)),
         found: "“swings”, “<b>”".into(),
         conflicts: vec!["it is stable: Your pole 2 lies in the right half-plane.".into()],
         example: "It swings.</q><script>".into(),

@@ -108,19 +108,19 @@ fn groups_have_names_that_stay() {
 #[test]
 fn one_decision_serves_a_group_and_a_students_own_mark_comes_first() {
     const CRITERION: &str = "expect_hanging.oscillates";
-    const TIPS: &str = "expect_hanging: It rocks a bit.";
+    const TIPS: &str = "expect_hanging: It jiggles a bit.";
     let id = group(TIPS, CRITERION).expect("provisional");
-    let decided = format!("alike: {{{CRITERION}: {{{id}: {{points: 1, reason: rocking is swinging}}}}}}\n");
+    let decided = format!("alike: {{{CRITERION}: {{{id}: {{points: 1, reason: jiggling is swinging}}}}}}\n");
     let own = "students: {EE-1: {items: {expect_hanging.oscillates: {points: 0.5, reason: in person}}}}\n";
     let other = "students: {EE-1: {viva: 30}}\n";
     for (answers, marks, points, code, reason) in [
         (TIPS, String::new(), 0, "concepts.missing", None),
-        (TIPS, decided.clone(), 100, "by_hand", Some("rocking is swinging")),
-        ("expect_hanging: It ROCKS a bit!", decided.clone(), 100, "by_hand", Some("rocking is swinging")),
+        (TIPS, decided.clone(), 100, "by_hand", Some("jiggling is swinging")),
+        ("expect_hanging: It JIGGLES a bit!", decided.clone(), 100, "by_hand", Some("jiggling is swinging")),
         ("expect_hanging: It tips.", decided.clone(), 0, "concepts.missing", None),
         ("expect_hanging: ''", decided.clone(), 0, "blank", None),
         (TIPS, format!("{own}{decided}"), 50, "by_hand", Some("in person")),
-        (TIPS, format!("{decided}{other}"), 100, "by_hand", Some("rocking is swinging")),
+        (TIPS, format!("{decided}{other}"), 100, "by_hand", Some("jiggling is swinging")),
     ] {
         let item = item("one", answers, CRITERION, &marks);
         let got = (item.earned, item.code, item.override_reason.as_deref());
@@ -136,9 +136,9 @@ fn a_decision_for_nobody_is_told_with_its_place() {
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("written");
     write(
         "a.yaml",
-        "lab: ee361-lab3\nstudent: {id: EE-1, name: A}\nanswers:\n  expect_hanging: It rocks a bit.\n",
+        "lab: ee361-lab3\nstudent: {id: EE-1, name: A}\nanswers:\n  expect_hanging: It jiggles a bit.\n",
     );
-    let id = group("expect_hanging: It rocks a bit.", "expect_hanging.oscillates").expect("provisional");
+    let id = group("expect_hanging: It jiggles a bit.", "expect_hanging.oscillates").expect("provisional");
     write(
         "marks.yaml",
         &format!(
