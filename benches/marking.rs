@@ -50,6 +50,14 @@ mod once_a_lab {
         bencher.bench(|| Catalogue::new(black_box(&LAB), &REFERENCE));
     }
 
+    /// Once the first answer is looked at that no single mistake explains.
+    #[divan::bench]
+    fn follow_pairs_of_mistakes(bencher: Bencher<'_, '_>) {
+        bencher
+            .with_inputs(|| Catalogue::new(&LAB, &REFERENCE))
+            .bench_refs(|catalogue| black_box(catalogue).follow_pairs());
+    }
+
     #[divan::bench]
     fn draw_shared_figures(bencher: Bencher<'_, '_>) {
         LazyLock::force(&REFERENCE);
@@ -79,18 +87,53 @@ mod once_a_student {
         bencher.bench(|| grade(&LAB, &REFERENCE, &CATALOGUE, black_box(&SUBMISSION), None));
     }
 
-    /// The longest search: nothing explains it.
-    #[divan::bench]
-    fn grade_a_transfer_function_nothing_explains(bencher: Bencher<'_, '_>) {
-        let text = b"answers: {hanging.transfer_function: 7.123s / (1.234s^3 + 2.345s^2 + 3.456s + 4.567)}";
-        let wrong = read("wrong", "wrong.yaml", text, &LAB.sheet, &NoFiles);
-        LazyLock::force(&CATALOGUE);
-        bencher.bench(|| grade(&LAB, &REFERENCE, &CATALOGUE, black_box(&wrong), None));
-    }
-
     #[divan::bench]
     fn write_report(bencher: Bencher<'_, '_>) {
         LazyLock::force(&KIT);
         bencher.bench(|| KIT.student_page(black_box(&SUBMISSION), &CARD));
+    }
+}
+
+#[divan::bench_group(name = "once a wrong transfer function")]
+mod once_a_wrong_transfer_function {
+    use super::*;
+    use polemark::algebra::{Polynomial, parse_decimal};
+    use polemark::lab::SystemRef;
+    use polemark::lti::TransferFunction;
+
+    fn search(bencher: Bencher<'_, '_>, num: &str, den: &str) {
+        let polynomial = |text: &str| {
+            let coefficients = text.split(' ').map(|c| parse_decimal(c).expect("a decimal"));
+            Polynomial::new(coefficients.collect())
+        };
+        let typed = TransferFunction::new(polynomial(num), polynomial(den)).expect("a denominator");
+        let of = SystemRef { model: "cart".to_owned(), operating_point: "hanging".to_owned() };
+        CATALOGUE.follow_pairs();
+        bencher.bench(|| CATALOGUE.diagnose(&of, black_box(&typed)));
+    }
+
+    #[divan::bench]
+    fn one_mistake(bencher: Bencher<'_, '_>) {
+        search(bencher, "-0.06 0", "0.0132 0.0024 -0.412 -0.0589");
+    }
+
+    #[divan::bench]
+    fn a_mistake_and_a_slip(bencher: Bencher<'_, '_>) {
+        search(bencher, "0.06 0", "-0.0132 -0.0024 0.4166 0.0588");
+    }
+
+    #[divan::bench]
+    fn two_mistakes(bencher: Bencher<'_, '_>) {
+        search(bencher, "-0.06 0", "0.0006 0.0006 -0.412 -0.0589");
+    }
+
+    #[divan::bench]
+    fn nothing_explains_it(bencher: Bencher<'_, '_>) {
+        search(bencher, "7.123 0", "1.234 2.345 3.456 4.567");
+    }
+
+    #[divan::bench]
+    fn nearly_right_and_nothing_explains_it(bencher: Bencher<'_, '_>) {
+        search(bencher, "-0.06 0", "0.0132 0.0077 0.41202 0.05886");
     }
 }

@@ -111,6 +111,11 @@ impl System {
         self.estimates.mistakes().get(place)
     }
 
+    /// Whether two mistakes can lead to a function of such degrees.
+    pub fn may_be_two(&self, typed: &TransferFunction) -> bool {
+        typed.num.degree().max(typed.den.degree()) <= self.estimates.highest_degree()
+    }
+
     pub fn pairs(&self) -> &Pairs {
         self.pairs.get_or_init(|| {
             let known = self.wrong.iter().flat_map(|wrong| &wrong.rows);

@@ -114,7 +114,7 @@ impl Catalogue {
                 found = system.rounded(system.mistakes(&rounded), &coarse);
             }
         }
-        if found.is_empty() {
+        if found.is_empty() && system.may_be_two(&clean) {
             searched += system.pairs().functions;
             found = system.two_mistakes(&typed);
         }

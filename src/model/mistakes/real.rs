@@ -134,6 +134,7 @@ impl RealFunction {
         if a.length < 2 {
             return None;
         }
+        let a = a.scaled(1.0 / a.coefficients().last()?);
         Some(Self { num: short.num.divided(&a)?.0, den: short.den.divided(&a)?.0 })
     }
 }
@@ -206,4 +207,61 @@ pub(super) fn determinant(n: usize, entry: &dyn Fn(usize, usize) -> (Entry, Entr
         minors[set] = sum;
     }
     minors[(1 << n) - 1].polynomial()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Lowest power first.
+    fn polynomial(coefficients: &[f64]) -> RealPolynomial {
+        let mut own = RealPolynomial::ZERO;
+        own.coefficients[..coefficients.len()].copy_from_slice(coefficients);
+        own.trimmed()
+    }
+
+    #[test]
+    fn determinants() {
+        #[track_caller]
+        fn check(rows: &[&[&[f64]]], expected: &[f64]) {
+            let entry = |row: usize, column: usize| {
+                let mut entry = Entry::default();
+                entry[..rows[row][column].len()].copy_from_slice(rows[row][column]);
+                (entry, entry.map(f64::abs))
+            };
+            assert_eq!(determinant(rows.len(), &entry).coefficients(), expected, "{rows:?}");
+        }
+        check(&[&[&[2.0, 1.0]]], &[2.0, 1.0]);
+        check(&[&[&[0.0, 1.0], &[1.0]], &[&[2.0], &[1.0, 1.0]]], &[-2.0, 1.0, 1.0]);
+        check(&[&[&[0.1, 0.3], &[0.2]], &[&[0.15, 0.45], &[0.3]]], &[]);
+        // The characteristic polynomial of a companion matrix: s³ + 6 s² + 11 s + 6.
+        let s = &[0.0, 1.0][..];
+        check(
+            &[&[s, &[-1.0], &[]], &[&[], s, &[-1.0]], &[&[6.0], &[11.0], &[6.0, 1.0]]],
+            &[6.0, 11.0, 6.0, 1.0],
+        );
+    }
+
+    #[test]
+    fn shared_factors() {
+        #[track_caller]
+        fn check(num: &[f64], den: &[f64], cancelled: Option<(&[f64], &[f64])>) {
+            let found = RealFunction { num: polynomial(num), den: polynomial(den) }.cancelled();
+            let found = found.map(|f| (f.num.coefficients().to_vec(), f.den.coefficients().to_vec()));
+            let near = |a: &[f64], b: &[f64]| {
+                a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12)
+            };
+            let alike = match (&found, cancelled) {
+                (Some((a, b)), Some((c, d))) => near(a, c) && near(b, d),
+                (None, None) => true,
+                _ => false,
+            };
+            assert!(alike, "{num:?} / {den:?}: {found:?}");
+        }
+        // (s + 0.3)(s + 2) / s (s + 0.3)(s + 5)
+        check(&[0.6, 2.3, 1.0], &[0.0, 1.5, 5.3, 1.0], Some((&[2.0, 1.0], &[0.0, 5.0, 1.0])));
+        check(&[0.0, 0.0, 1.0], &[0.0, 1.5, 5.3, 1.0], None);
+        check(&[0.6, 2.3, 1.0], &[0.0, 1.6, 5.3, 1.0], None);
+        check(&[3.0], &[1.0, 2.0], None);
+    }
 }
