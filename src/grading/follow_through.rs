@@ -140,7 +140,7 @@ impl Follower<'_> {
         let (guard, ways) = function.model.get_or_init(|| {
             let truth = Truth::Reference(self.grader.reference).poles(function.of);
             let asked = truth.iter().map(|one| one.denominator.degree()).max().unwrap_or(0);
-            let ways = OwnModel::ways(function.typed, asked + HIGHER);
+            let ways = OwnModel::ways(function.typed, asked + guard::HIGHER);
             let tolerance = coefficient_tolerance(self.lab, function.of);
             let guard = ways.first().map_or(Guard::Order, |short| {
                 guard::of_function(&short.function, self.grader.reference, function.of, &tolerance)
@@ -321,7 +321,7 @@ impl Follower<'_> {
                 let guard = match (&mark.follow_through, truth.first()) {
                     // They follow a transfer function that may not be followed.
                     (Some(followed), _) if followed.guard != Guard::Passed => followed.guard,
-                    (_, Some(right)) => guard::of_poles(&own.polynomial, right.denominator),
+                    (_, Some(right)) => guard::of_poles(&own, right.denominator),
                     (_, None) => Guard::Order,
                 };
                 let root = match &mark.follow_through {
@@ -334,9 +334,6 @@ impl Follower<'_> {
         None
     }
 }
-
-/// An own function is looked at when its degree is higher by this much, if only to say that it cannot be followed.
-const HIGHER: usize = 4;
 
 pub(super) const OWN_FUNCTION: &str = "your own transfer function";
 const OWN_POLES: &str = "your own poles";

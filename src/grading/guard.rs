@@ -1,4 +1,6 @@
 use super::accepted::{accepted, operating_point};
+use super::closeness::magnitude;
+use super::own_poles::OwnPoles;
 use super::scale::{Part, scalings};
 use crate::algebra::{Polynomial, Rational};
 use crate::lab::SystemRef;
@@ -29,6 +31,10 @@ impl Guard {
     }
 }
 
+/// What an answer rests on is looked at when its degree is higher than asked for by at most this much, if only to say that it
+/// cannot be followed.
+pub(super) const HIGHER: usize = 4;
+
 /// Whether `own` (common factors cancelled) may be followed where the system `of` was asked for.
 ///
 /// `tolerance`: relative, of a coefficient, to tell that it is another operating point's.
@@ -52,11 +58,13 @@ pub(super) fn of_function(
     }
 }
 
-/// The same for poles: `own` has them as its roots, conjugates completed; `right` those of the reference.
-pub(super) fn of_poles(own: &Polynomial, right: &Polynomial) -> Guard {
-    if own.degree() < right.degree() {
+/// The same for poles; `right` has those of the reference as its roots.
+///
+/// More than [`HIGHER`] too many are of another function.
+pub(super) fn of_poles(own: &OwnPoles, right: &Polynomial) -> Guard {
+    if !(right.degree()..=right.degree() + HIGHER).contains(&own.count()) {
         Guard::Order
-    } else if is_trivial(own, right) {
+    } else if is_trivial(&own.polynomial(), right) {
         Guard::Trivial
     } else {
         Guard::Passed
@@ -92,7 +100,7 @@ fn is_beyond_measure(own: &TransferFunction, right: &TransferFunction) -> bool {
             if have.is_zero() || want.is_zero() {
                 return false;
             }
-            let ratio = super::closeness::magnitude(&(have / want));
+            let ratio = magnitude(&(have / want));
             ratio > limit || ratio < Rational::ONE / &limit
         })
     })

@@ -1,15 +1,23 @@
 use super::closeness::magnitude;
 use crate::algebra::{Polynomial, Rational};
-use crate::lti::{Stability, stability};
+use crate::lti::Stability;
 use crate::submission::TypedComplex;
 
-/// A student's own poles as the roots of a polynomial, exactly as typed.
+/// A student's own poles as a set, exactly as typed, with the conjugates that were left out.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct OwnPoles {
-    /// Monic, with the conjugates that were left out.
-    pub polynomial: Polynomial,
+    places: Vec<Place>,
     /// What they say of stability: as typed, and with the rounding of a program on the imaginary axis taken for 0.
     words: Vec<Stability>,
+}
+
+/// A real pole, or a complex one and its conjugate.
+#[derive(Clone, Debug, PartialEq)]
+struct Place {
+    re: Rational,
+    /// Not negative.
+    im: Rational,
+    times: usize,
 }
 
 /// More poles than this are not followed.
@@ -31,12 +39,31 @@ impl OwnPoles {
         let limit = largest * Rational::from(10).pow(-NOISE_PLACES);
         let on_axis = |re: &Rational| if magnitude(re) <= limit { Rational::ZERO } else { re.clone() };
         let rounded: Vec<_> = exact.iter().map(|(re, im)| (on_axis(re), im.clone())).collect();
-        let polynomial = polynomial(&exact);
-        let mut words = vec![stability(&polynomial)];
+        let places = places(&exact);
+        let mut words = vec![stability(&places)];
         if rounded != exact {
-            words.push(stability(&self::polynomial(&rounded)));
+            words.push(stability(&self::places(&rounded)));
         }
-        Some(Self { polynomial, words })
+        Some(Self { places, words })
+    }
+
+    /// How many, by multiplicity.
+    pub fn count(&self) -> usize {
+        self.places.iter().map(|place| if place.im.is_zero() { place.times } else { 2 * place.times }).sum()
+    }
+
+    /// ∏ (s − p): exact, and so for few poles only.
+    pub fn polynomial(&self) -> Polynomial {
+        let factors = self.places.iter().flat_map(|place| {
+            let Place { re, im, times } = place;
+            let coefficients = if im.is_zero() {
+                vec![Rational::ONE, -re.clone()]
+            } else {
+                vec![Rational::ONE, -(re + re), re * re + im * im]
+            };
+            std::iter::repeat_n(Polynomial::new(coefficients), *times)
+        });
+        factors.fold(Polynomial::one(), |product, factor| &product * &factor)
     }
 
     pub fn stability(&self) -> Stability {
@@ -48,33 +75,30 @@ impl OwnPoles {
     }
 }
 
-/// ∏ (s − p), a complex pole and its conjugate as often as either was given.
-fn polynomial(poles: &[(Rational, Rational)]) -> Polynomial {
-    let mut product = Polynomial::one();
-    let mut seen: Vec<(&Rational, Rational)> = Vec::new();
+/// Each place once, in the order typed; a complex pole and its conjugate as often as either was given.
+fn places(poles: &[(Rational, Rational)]) -> Vec<Place> {
+    let mut found: Vec<Place> = Vec::new();
     for (re, im) in poles {
-        if im.is_zero() {
-            product = &product * &Polynomial::new(vec![Rational::ONE, -re.clone()]);
+        let size = magnitude(im);
+        if found.iter().any(|known| known.re == *re && known.im == size) {
             continue;
         }
-        let key = (re, magnitude(im));
-        if seen.contains(&key) {
-            continue;
-        }
-        let upper = Rational::ZERO < *im;
-        let given = |up: bool| {
-            let same = |(r, i): &&(Rational, Rational)| {
-                r == re && magnitude(i) == key.1 && (Rational::ZERO < *i) == up
-            };
-            poles.iter().filter(same).count()
-        };
-        let times = given(upper).max(given(!upper));
-        let pair = vec![Rational::ONE, -(re + re), re * re + im * im];
-        let pair = Polynomial::new(pair);
-        product = (0..times).fold(product, |product, _| &product * &pair);
-        seen.push(key);
+        let given = |im: &Rational| poles.iter().filter(|(r, i)| r == re && i == im).count();
+        let times = given(&size).max(given(&-size.clone()));
+        found.push(Place { re: re.clone(), im: size, times });
     }
-    product
+    found
+}
+
+fn stability(places: &[Place]) -> Stability {
+    let on_axis = || places.iter().filter(|place| place.re.is_zero());
+    if places.iter().any(|place| place.re > Rational::ZERO) || on_axis().any(|place| place.times > 1) {
+        Stability::Unstable
+    } else if on_axis().next().is_some() {
+        Stability::MarginallyStable
+    } else {
+        Stability::AsymptoticallyStable
+    }
 }
 
 #[cfg(test)]
@@ -98,8 +122,10 @@ mod tests {
         #[track_caller]
         fn check(poles: &[(&str, &str)], polynomial: &[i64], words: &[Stability]) {
             let own = own(poles);
-            assert_eq!(own.polynomial, Polynomial::from_integers(polynomial), "{poles:?}");
+            assert_eq!(own.polynomial(), Polynomial::from_integers(polynomial), "{poles:?}");
+            assert_eq!(own.count(), polynomial.len() - 1, "{poles:?}");
             assert_eq!(own.words, words, "{poles:?}");
+            assert_eq!(own.stability(), crate::lti::stability(&own.polynomial()), "{poles:?}");
         }
         check(&[("-1", "0"), ("-2", "0")], &[1, 3, 2], &[AsymptoticallyStable]);
         check(&[("-1", "0"), ("2", "0")], &[1, -1, -2], &[Unstable]);
