@@ -32,7 +32,6 @@ pub(super) fn closeness(
 /// Lowest and highest number within max(absolute, relative · |expected|) and the error bound; `None` for what is not finite.
 ///
 /// Numbers outside may still be right, when they are the expected one correctly rounded.
-#[allow(dead_code, reason = "for poles, and for follow-through")]
 pub(super) fn accepted_interval(
     expected: f64,
     error_bound: f64,
@@ -68,13 +67,10 @@ impl Expected {
         if distance <= self.width(tolerance) + &self.error_bound {
             return Closeness::Within;
         }
-        let Some(figures) = tolerance.figures else { return Closeness::Off };
-        if significant_figures(typed) < figures as usize {
-            return Closeness::Off;
+        match rounding(typed, tolerance) {
+            Some(half_a_unit) if distance <= &self.error_bound + &half_a_unit => Closeness::Rounded,
+            _ => Closeness::Off,
         }
-        let place = typed.last_place.saturating_add(places_left_open(typed, figures as usize));
-        let half_a_digit = power_of_ten(place) / Rational::from(2);
-        if distance <= half_a_digit + &self.error_bound { Closeness::Rounded } else { Closeness::Off }
     }
 
     /// See [`accepted_interval`].
@@ -159,8 +155,21 @@ pub(super) fn inward(low: &Rational, high: &Rational, width: &Rational) -> Optio
     Some((shown(low)?, shown(high)?))
 }
 
+/// How far the number that was rounded to `typed` may be from it: half a unit of its last place, or of an earlier one when
+/// zeros at the end of a whole number may only tell its size, as those of `1300` for two figures.
+///
+/// `None` for fewer significant figures than the lab asks for, and where rounding is not allowed.
+pub(super) fn rounding(typed: &Decimal, tolerance: &Tolerance) -> Option<Rational> {
+    let figures = tolerance.figures? as usize;
+    if significant_figures(typed) < figures {
+        return None;
+    }
+    let place = typed.last_place.saturating_add(places_left_open(typed, figures));
+    Some(power_of_ten(place) / Rational::from(2))
+}
+
 /// Figures from the first that is not zero to the last one typed: 3 for `0.0412`, 4 for `1.500`, 0 for `0.00`.
-pub(super) fn significant_figures(typed: &Decimal) -> usize {
+fn significant_figures(typed: &Decimal) -> usize {
     if typed.value.is_zero() {
         return 0;
     }

@@ -29,7 +29,8 @@ impl Decimal {
         self.value == Rational::ZERO
     }
 
-    pub(super) fn negated(&self) -> Self {
+    /// The same number with the other sign; 0 stays as it is typed.
+    pub fn negated(&self) -> Self {
         if self.is_zero() {
             return self.clone();
         }

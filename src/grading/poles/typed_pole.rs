@@ -1,4 +1,4 @@
-use super::super::closeness::{closeness, significant_figures};
+use super::super::closeness::{self, closeness};
 use crate::algebra::{Rational, to_f64};
 use crate::lab::Tolerance;
 use crate::lti::Pole;
@@ -19,11 +19,11 @@ impl TypedPole {
     }
 
     pub fn mirrored(&self) -> Self {
-        Self { re: negated(&self.re), im: self.im.clone() }
+        Self { re: self.re.negated(), im: self.im.clone() }
     }
 
     pub fn conjugate(&self) -> Self {
-        Self { re: self.re.clone(), im: negated(&self.im) }
+        Self { re: self.re.clone(), im: self.im.negated() }
     }
 
     pub fn is_conjugate_of(&self, other: &Self) -> bool {
@@ -76,26 +76,10 @@ impl Side {
     }
 }
 
-/// How far the number that was rounded to `typed` may be from it: half a unit of its last place, or of an earlier one when
-/// zeros at the end of a whole number may only tell its size, as those of `1300` for two figures.
-///
-/// Zero for fewer significant figures than the lab asks for, and for an exact 0.
+/// As for any other number, but zero where that is nothing, and for an exact 0.
 pub(super) fn rounding(typed: &Decimal, tolerance: &Tolerance) -> Rational {
-    let Some(figures) = tolerance.figures else { return Rational::ZERO };
-    let spare = significant_figures(typed).checked_sub(figures as usize);
-    let Some(spare) = spare.filter(|_| !typed.value.is_zero()) else { return Rational::ZERO };
-    let whole = typed.last_place == 0 && !typed.text.contains(['.', 'e', 'E']);
-    let zeros = if whole { typed.text.len() - typed.text.trim_end_matches('0').len() } else { 0 };
-    let places = isize::try_from(zeros.min(spare)).unwrap_or(0);
-    Rational::from(10).pow(typed.last_place as isize + places) / Rational::from(2)
-}
-
-fn negated(decimal: &Decimal) -> Decimal {
-    let text = match decimal.text.strip_prefix(['-', '−']) {
-        Some(positive) => positive.to_owned(),
-        None => format!("-{}", decimal.text.trim_start_matches('+')),
-    };
-    Decimal { text, value: -decimal.value.clone(), last_place: decimal.last_place }
+    let left_open = closeness::rounding(typed, tolerance).filter(|_| !typed.value.is_zero());
+    left_open.unwrap_or(Rational::ZERO)
 }
 
 #[cfg(test)]
