@@ -1,5 +1,5 @@
 use crate::algebra::Rational;
-use crate::lab::{Check, Criterion, SystemRef};
+use crate::lab::{Check, LabDefinition, SystemRef};
 use crate::reference::{LinearReference, OperatingPointReference, Reference};
 
 /// One accepted set of parameter values, and what follows from it.
@@ -69,10 +69,18 @@ pub(super) fn accepted<'a, T: ?Sized>(
         .unwrap_or_default()
 }
 
-/// The system whose transfer function a criterion judges.
-pub(super) fn transfer_function_of(criterion: &Criterion) -> Option<&SystemRef> {
-    match &criterion.check {
-        Check::Structure { of } | Check::Numerator { of, .. } | Check::Denominator { of, .. } => Some(of),
-        _ => None,
-    }
+/// The widest relative tolerance that the lab gives a coefficient of the system's transfer function.
+pub(super) fn coefficient_tolerance(lab: &LabDefinition, of: &SystemRef) -> Rational {
+    let checks =
+        lab.questions.iter().flat_map(|question| &question.criteria).map(|criterion| &criterion.check);
+    checks
+        .filter(|check| check.transfer_function() == Some(of))
+        .filter_map(|check| match check {
+            Check::Numerator { tolerance, .. } | Check::Denominator { tolerance, .. } => {
+                Some(tolerance.relative.clone())
+            }
+            _ => None,
+        })
+        .max()
+        .unwrap_or(Rational::ZERO)
 }

@@ -1,8 +1,8 @@
-use super::accepted::{Accepted, accepted, transfer_function_of};
+use super::accepted::{Accepted, accepted, coefficient_tolerance};
 use super::likeness::{Form, Row};
 use super::pairs::Pairs;
-use crate::algebra::{Rational, to_f64};
-use crate::lab::{Check, LabDefinition, SystemRef};
+use crate::algebra::{Polynomial, Rational, to_f64};
+use crate::lab::{LabDefinition, SystemRef};
 use crate::lti::TransferFunction;
 use crate::model::{Derivation, Estimates, Mistake, RealFunction};
 use crate::reference::Reference;
@@ -49,16 +49,9 @@ impl Catalogue {
     pub fn new(lab: &LabDefinition, reference: &Reference) -> Self {
         let mut systems: Vec<System> = Vec::new();
         for criterion in lab.questions.iter().flat_map(|question| &question.criteria) {
-            let Some(of) = transfer_function_of(criterion) else { continue };
-            let tolerance = match &criterion.check {
-                Check::Numerator { tolerance, .. } | Check::Denominator { tolerance, .. } => {
-                    to_f64(&tolerance.relative)
-                }
-                _ => 0.0,
-            };
-            match systems.iter_mut().find(|system| system.of == *of) {
-                Some(known) => known.tolerance = known.tolerance.max(tolerance),
-                None => systems.extend(System::new(lab, reference, of, tolerance)),
+            let Some(of) = criterion.check.transfer_function() else { continue };
+            if !systems.iter().any(|known| known.of == *of) {
+                systems.extend(System::new(lab, reference, of));
             }
         }
         Self { systems }
@@ -73,7 +66,7 @@ impl Catalogue {
 
 impl System {
     /// `None` when the lab or the reference does not know `of`.
-    fn new(lab: &LabDefinition, reference: &Reference, of: &SystemRef, tolerance: f64) -> Option<Self> {
+    fn new(lab: &LabDefinition, reference: &Reference, of: &SystemRef) -> Option<Self> {
         let definition = lab.models.iter().find(|model| model.id == of.model)?;
         let point = definition.operating_points.iter().find(|point| point.id == of.operating_point)?;
         let derivation = definition.derivation(point, &lab.parameters);
@@ -93,7 +86,7 @@ impl System {
         let estimates = Estimates::new(derivation, mistakes, sets);
         let mut own = Self {
             of: of.clone(),
-            tolerance,
+            tolerance: to_f64(&coefficient_tolerance(lab, of)),
             choices: choices?,
             wrong: Vec::new(),
             weights,
@@ -180,9 +173,9 @@ fn parameters(derivation: &Derivation, one: &Accepted<'_, TransferFunction>) -> 
 /// Without the power of s that numerator and denominator share: one sees that it cancels, whatever else is left.
 fn without_powers_of_s(function: &TransferFunction) -> TransferFunction {
     let shared = function.num.trailing_zeros().min(function.den.trailing_zeros());
-    let short = |polynomial: &crate::algebra::Polynomial| {
+    let short = |polynomial: &Polynomial| {
         let coefficients = polynomial.coefficients();
-        crate::algebra::Polynomial::new(coefficients[..coefficients.len() - shared].to_vec())
+        Polynomial::new(coefficients[..coefficients.len() - shared].to_vec())
     };
     TransferFunction { num: short(&function.num), den: short(&function.den) }
 }

@@ -1,6 +1,6 @@
 use super::catalogue::{Catalogue, System};
+use super::chance::{all_of, by_chance, in_question};
 use super::digits::Written;
-use super::evidence::{all_of, by_chance, in_question};
 use super::likeness::{Mended, Row, Typed};
 use super::transfer_function::{capitalized, without_residue};
 use crate::algebra::{Expression, significant};

@@ -1,6 +1,6 @@
-use super::accepted::{Accepted, transfer_function_of};
-use super::claims;
+use super::accepted::{Accepted, coefficient_tolerance};
 use super::closeness::percent;
+use super::conflicts::claims_of;
 use super::grade::{Field, Grader};
 use super::guard::{self, Guard};
 use super::mark::{Mark, share};
@@ -10,7 +10,7 @@ use super::own_poles::OwnPoles;
 use super::truth::Truth;
 use super::{Evidence, Verdict, stability};
 use crate::algebra::Rational;
-use crate::lab::{Check, Criterion, Curve, Described, LabDefinition, Points, Question, SystemRef};
+use crate::lab::{Check, Criterion, Described, LabDefinition, Points, Question, SystemRef};
 use crate::lti::TransferFunction;
 use crate::submission::{AnswerValue, stability_name};
 use std::cell::OnceCell;
@@ -62,15 +62,7 @@ pub(super) fn follow(lab: &LabDefinition, grader: &Grader<'_>, earned: Earned<'_
 
 /// The system on whose own model an answer can rest.
 fn of_system(check: &Check) -> Option<&SystemRef> {
-    match check {
-        Check::Poles { of, .. }
-        | Check::Stability { of }
-        | Check::Feature { of, .. }
-        | Check::Shape { of, .. }
-        | Check::Plot { curve: Curve::Response { of, .. }, .. }
-        | Check::Concepts { describes: Some(Described { of, .. }), .. } => Some(of),
-        _ => None,
-    }
+    check.system().filter(|_| check.transfer_function().is_none())
 }
 
 /// A criterion whose answer may rest on an earlier one.
@@ -126,7 +118,7 @@ impl Follower<'_> {
         let behaviour = (&response.features, own.stability);
         let mark = own_claims::judge(
             self.criterion.points,
-            &claims::find(prose, described, self.lab),
+            &claims_of(prose, described, self.lab),
             &known,
             behaviour,
         )?;
@@ -409,7 +401,7 @@ fn own_functions<'a>(
     let mut found: Vec<OwnFunction<'a>> = Vec::new();
     for (question, (asked, marks)) in lab.questions.iter().zip(marks).enumerate() {
         for criterion in &asked.criteria {
-            let Some(of) = transfer_function_of(criterion) else { continue };
+            let Some(of) = criterion.check.transfer_function() else { continue };
             if found.iter().any(|known| known.of == of) {
                 continue;
             }
@@ -418,8 +410,9 @@ fn own_functions<'a>(
             else {
                 continue;
             };
-            let same =
-                |other: &Criterion| other.field == criterion.field && transfer_function_of(other) == Some(of);
+            let same = |other: &Criterion| {
+                other.field == criterion.field && other.check.transfer_function() == Some(of)
+            };
             let judged = asked.criteria.iter().zip(marks).filter(|(other, _)| same(other));
             let root = judged.clone().find_map(|(other, mark)| root_of(other, mark, earned));
             let field = criterion.field.as_str();
@@ -435,21 +428,6 @@ pub(super) fn root_of(criterion: &Criterion, mark: &Mark, earned: Earned<'_>) ->
         Some(followed) if followed.credited => Some(followed.root.clone()),
         _ => (earned(criterion, mark) < criterion.points).then(|| criterion.id.clone()),
     }
-}
-
-/// The widest that is allowed a coefficient of the system's transfer function, relative.
-fn coefficient_tolerance(lab: &LabDefinition, of: &SystemRef) -> Rational {
-    let criteria = lab.questions.iter().flat_map(|question| &question.criteria);
-    criteria
-        .filter(|criterion| transfer_function_of(criterion) == Some(of))
-        .filter_map(|criterion| match &criterion.check {
-            Check::Numerator { tolerance, .. } | Check::Denominator { tolerance, .. } => {
-                Some(tolerance.relative.clone())
-            }
-            _ => None,
-        })
-        .max()
-        .unwrap_or(Rational::ZERO)
 }
 
 /// `Task 1, question 3`; the title of a question without a number.

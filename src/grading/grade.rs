@@ -1,5 +1,5 @@
-use super::accepted::{Accepted, accepted, transfer_function_of};
-use super::claims::note_conflicts;
+use super::accepted::{Accepted, accepted};
+use super::conflicts::note_conflicts;
 use super::follow_through::follow;
 use super::mark::{Mark, beginning};
 use super::plot::{Demands, Target};
@@ -163,14 +163,14 @@ impl<'a> Grader<'a> {
             if marks[index].is_some() {
                 continue;
             }
-            match transfer_function_of(criterion) {
+            match criterion.check.transfer_function() {
                 None => marks[index] = Some(self.criterion(criterion, Truth::Reference(self.reference))),
                 Some(of) => {
                     // Criteria on one transfer function are judged together: they share one reading of it.
                     let same: Vec<usize> = (index..question.criteria.len())
                         .filter(|&other| {
                             let other = &question.criteria[other];
-                            other.field == criterion.field && transfer_function_of(other) == Some(of)
+                            other.field == criterion.field && other.check.transfer_function() == Some(of)
                         })
                         .collect();
                     let criteria: Vec<&Criterion> =

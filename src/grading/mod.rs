@@ -5,13 +5,13 @@
 mod accepted;
 mod alike;
 mod catalogue;
-mod claims;
+mod chance;
 mod closeness;
 mod concepts;
+mod conflicts;
 mod cover;
 mod diagnosis;
 mod digits;
-mod evidence;
 mod follow_through;
 #[cfg(test)]
 mod follow_through_tests;

@@ -1,4 +1,4 @@
-use super::evidence::Places;
+use super::chance::Places;
 use super::likeness::{Form, Row, Typed};
 use crate::model::{Estimates, Pair};
 use std::cmp::Ordering;

@@ -1,4 +1,3 @@
-use super::accepted::transfer_function_of;
 use super::closeness::percent;
 use super::follow_through::{Earned, FollowThrough, OWN_FUNCTION, question_name, root_of};
 use super::mark::{Mark, share};
@@ -71,7 +70,7 @@ fn functions(lab: &LabDefinition) -> Vec<Function<'_>> {
     let mut found: Vec<Function<'_>> = Vec::new();
     for (place, question) in lab.questions.iter().enumerate() {
         for (index, criterion) in question.criteria.iter().enumerate() {
-            let Some(of) = transfer_function_of(criterion) else { continue };
+            let Some(of) = criterion.check.transfer_function() else { continue };
             let same = |known: &&mut Function<'_>| {
                 known.of == of && known.criteria.iter().any(|(_, one)| one.field == criterion.field)
             };

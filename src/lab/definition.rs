@@ -5,6 +5,7 @@ use crate::model::{Comparison, Equilibrium, Model};
 use crate::nonlinear::{Chain, Nonlinearity};
 use crate::source::{SourceText, Span};
 use crate::submission::{AnswerSheet, FieldKind, NonlinearityKind, Submission};
+use std::fmt;
 
 /// A lab, checked: every name resolves, points add up, equations parse.
 #[derive(Clone, Debug)]
@@ -162,6 +163,13 @@ pub struct SystemRef {
     pub operating_point: String,
 }
 
+/// `cart.hanging`
+impl fmt::Display for SystemRef {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}.{}", self.model, self.operating_point)
+    }
+}
+
 #[derive(Clone, Debug, PartialEq)]
 pub enum Check {
     /// Orders of numerator and denominator and zeros at the origin, common factors cancelled.
@@ -220,6 +228,29 @@ pub enum Check {
     Nonlinearity {
         expected: NonlinearityKind,
     },
+}
+
+impl Check {
+    /// The system whose transfer function it judges.
+    pub fn transfer_function(&self) -> Option<&SystemRef> {
+        match self {
+            Self::Structure { of } | Self::Numerator { of, .. } | Self::Denominator { of, .. } => Some(of),
+            _ => None,
+        }
+    }
+
+    /// The system behind what it judges, its transfer function included.
+    pub fn system(&self) -> Option<&SystemRef> {
+        match self {
+            Self::Poles { of, .. }
+            | Self::Stability { of }
+            | Self::Feature { of, .. }
+            | Self::Shape { of, .. }
+            | Self::Concepts { describes: Some(Described { of, .. }), .. }
+            | Self::Plot { curve: Curve::Response { of, .. }, .. } => Some(of),
+            _ => self.transfer_function(),
+        }
+    }
 }
 
 #[derive(Clone, Debug, PartialEq)]

@@ -27,19 +27,8 @@ pub(super) fn sheet(id: &str, title: &str, questions: &[Question], parameters: &
 /// The system a field speaks of: the one its criteria judge it against, else the one its question is about.
 fn about(question: &Question, field: &QuestionField) -> Option<String> {
     let judged = judging(question, &field.path).find_map(|criterion| match &criterion.check {
-        Check::Structure { of }
-        | Check::Numerator { of, .. }
-        | Check::Denominator { of, .. }
-        | Check::Poles { of, .. }
-        | Check::Stability { of }
-        | Check::Feature { of, .. }
-        | Check::Shape { of, .. }
-        | Check::Concepts { describes: Some(Described { of, .. }), .. }
-        | Check::Plot { curve: Curve::Response { of, .. }, .. } => {
-            Some(format!("{}.{}", of.model, of.operating_point))
-        }
         Check::Plot { curve: Curve::Simulation { id }, .. } => Some(id.clone()),
-        Check::Concepts { .. } | Check::Nonlinearity { .. } => None,
+        check => check.system().map(ToString::to_string),
     });
     judged.or_else(|| question.about.clone())
 }

@@ -1,5 +1,5 @@
 use super::Check;
-use crate::lab::{self, LabDefinition, ModelDefinition, OperatingPointDefinition};
+use crate::lab::{LabDefinition, ModelDefinition, OperatingPointDefinition};
 use crate::lti::TransferFunction;
 use crate::model::Mistake;
 use crate::reference::Reference;
@@ -142,10 +142,9 @@ fn right_functions<'a>(
 
 /// Whether a criterion judges the transfer function there.
 fn is_asked(lab: &LabDefinition, model: &ModelDefinition, point: &OperatingPointDefinition) -> bool {
-    lab.questions.iter().flat_map(|question| &question.criteria).any(|criterion| match &criterion.check {
-        lab::Check::Structure { of }
-        | lab::Check::Numerator { of, .. }
-        | lab::Check::Denominator { of, .. } => of.model == model.id && of.operating_point == point.id,
-        _ => false,
+    let mut criteria = lab.questions.iter().flat_map(|question| &question.criteria);
+    criteria.any(|criterion| {
+        let of = criterion.check.transfer_function();
+        of.is_some_and(|of| of.model == model.id && of.operating_point == point.id)
     })
 }

@@ -188,11 +188,11 @@ fn point(kit: &ReportKit, system: &SystemRef, point: &OperatingPointReference) -
     let main = point.main();
     let linearization = &main.linearization;
     let space = &linearization.state_space;
-    let id = |kind: &str| anchor("figure", &format!("{}.{}.{kind}", system.model, system.operating_point));
+    let id = |kind: &str| anchor("figure", &format!("{system}.{kind}"));
     let (impulse, step) = (&main.impulse.features, &main.step.features);
     let comparisons = point.comparison.runs.iter().enumerate();
     PointView {
-        anchor: anchor("point", &format!("{}.{}", system.model, system.operating_point)),
+        anchor: anchor("point", &system.to_string()),
         title: point.title.clone(),
         equilibrium_html: point
             .equilibrium_text

@@ -28,7 +28,7 @@ pub use answer::{
     Answer, AnswerValue, Decimal, Figure, FinalValue, Series, Student, Submission, TypedComplex, Unreadable,
 };
 pub use attachments::{AttachmentError, Attachments, Folder, MAX_ATTACHMENT_BYTES, NoFiles};
-pub use own_claims::{ContradictedClaim, contradicted_claims, described, elsewhere};
+pub use own_claims::{ContradictedClaim, claims_about, contradicted_claims};
 pub use read::{MAX_PROSE_BYTES, read};
 pub use self_check::self_check;
 pub use sheet::{AnswerSheet, Field, FieldKind};

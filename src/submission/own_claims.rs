@@ -17,7 +17,7 @@ pub struct ContradictedClaim<'a> {
 /// The response that the prose of `field` describes: of which system, and to what; `None` when it describes none.
 ///
 /// It describes one when the lab says so, or when shape, stability, poles or values are asked for beside it.
-pub fn described<'a>(field: &'a Field, sheet: &'a AnswerSheet) -> Option<(&'a str, Option<InputKind>)> {
+fn described<'a>(field: &'a Field, sheet: &'a AnswerSheet) -> Option<(&'a str, Option<InputKind>)> {
     let about = field.about.as_deref().filter(|_| field.kind == FieldKind::Prose)?;
     let beside =
         || sheet.fields.iter().filter(|one| one.question == field.question && one.about == field.about);
@@ -30,8 +30,16 @@ pub fn described<'a>(field: &'a Field, sheet: &'a AnswerSheet) -> Option<(&'a st
     beside().any(of_response).then(|| (about, beside().find_map(|one| one.response)))
 }
 
-/// Names of other operating points of the same model, as words: sentences with them speak of those.
-pub fn elsewhere(about: &str, sheet: &AnswerSheet) -> Vec<String> {
+/// What `prose` claims about a response of the system `about`, in text order; sentences that name another operating point of the
+/// same model speak of that.
+pub fn claims_about(prose: &str, about: &str, sheet: &AnswerSheet) -> Vec<Claim> {
+    let others = elsewhere(about, sheet);
+    let others: Vec<&str> = others.iter().map(String::as_str).collect();
+    claims(prose, &others)
+}
+
+/// Names of other operating points of the same model, as words.
+fn elsewhere(about: &str, sheet: &AnswerSheet) -> Vec<String> {
     let Some((model, this)) = about.rsplit_once('.') else { return Vec::new() };
     let others = sheet.fields.iter().filter_map(|field| field.about.as_deref()?.rsplit_once('.'));
     let mut names: Vec<String> = others
@@ -54,9 +62,7 @@ pub fn contradicted_claims<'a>(
     let Some(AnswerValue::Prose(prose)) = value(submission, path).map(|(_, value)| value) else {
         return Vec::new();
     };
-    let others = elsewhere(about, sheet);
-    let others: Vec<&str> = others.iter().map(String::as_str).collect();
-    let found = claims(prose, &others);
+    let found = claims_about(prose, about, sheet);
     if found.is_empty() {
         return Vec::new();
     }

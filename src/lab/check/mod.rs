@@ -64,7 +64,7 @@ struct Names<'a> {
 impl Names<'_> {
     /// Units of output and input of an operating point.
     fn units_of(&self, of: &SystemRef) -> (&str, &str) {
-        let path = format!("{}.{}", of.model, of.operating_point);
+        let path = of.to_string();
         let position = self.systems.iter().position(|system| *system == path);
         position.and_then(|i| self.units.get(i)).copied().unwrap_or_default()
     }

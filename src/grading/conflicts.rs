@@ -5,15 +5,12 @@ use super::mark::Mark;
 use super::truth::Truth;
 use super::{Conflict, Verdict};
 use crate::lab::{Check, Criterion, Described, LabDefinition, Question};
-use crate::prose::{Claim, claims};
-use crate::submission::{AnswerValue, contradicted_claims, elsewhere};
+use crate::prose::Claim;
+use crate::submission::{AnswerValue, claims_about, contradicted_claims};
 
 /// What `prose` claims about the response it describes, in text order.
-pub(super) fn find(prose: &str, described: &Described, lab: &LabDefinition) -> Vec<Claim> {
-    let about = format!("{}.{}", described.of.model, described.of.operating_point);
-    let others = elsewhere(&about, &lab.sheet);
-    let others: Vec<&str> = others.iter().map(String::as_str).collect();
-    claims(prose, &others)
+pub(super) fn claims_of(prose: &str, described: &Described, lab: &LabDefinition) -> Vec<Claim> {
+    claims_about(prose, &described.of.to_string(), &lab.sheet)
 }
 
 /// Notes at each prose criterion which of the claims cannot be true by other answers of the student's, or by the reference.
@@ -60,7 +57,7 @@ fn conflicts(
         .map(|one| Conflict { span: one.claim.span, claim: one.claim.words(), against: one.says, own: true });
     let mut all: Vec<Conflict> = own.collect();
     if let Some(described) = described {
-        let found = find(prose, described, lab);
+        let found = claims_of(prose, described, lab);
         all.extend(found.iter().filter_map(|claim| against_reference(claim, described, grader)));
     }
     // The student's own answer first.
