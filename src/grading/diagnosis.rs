@@ -96,7 +96,9 @@ impl Catalogue {
         let coarse = typed.coarse();
         let rounded = |row: &Row| {
             let misfit = coarse.misfit(row).filter(|_| system.weight_of(COARSE) > 0)?;
-            Some((misfit, After::Rounded(coarse.rounded(row, system.tolerance))))
+            let off = coarse.rounded(row, system.tolerance);
+            let farthest = off.iter().map(|(typed, meant)| (typed / meant - 1.0).abs()).fold(0.0, f64::max);
+            (farthest <= FARTHEST_ROUNDED).then_some((misfit, After::Rounded(off)))
         };
         let mut found = system.mistakes(&|row| alone(&typed, row));
         if !written.is_exact() {
@@ -107,7 +109,8 @@ impl Catalogue {
             if found.is_empty() {
                 found = system.right(&mended);
             }
-            if found.is_empty() {
+            // A mistake that only moves the coefficient that is off, mended there by a digit, would explain anything.
+            if found.is_empty() && !system.is_one_off(&wide) {
                 found = system.mistakes(&mended);
             }
             if found.is_empty() {
@@ -123,6 +126,9 @@ impl Catalogue {
 }
 
 const COARSE: &str = "rounding.coarse";
+
+/// What is farther off was not rounded: 2 for 1.5 is a third.
+const FARTHEST_ROUNDED: f64 = 0.34;
 
 /// One way to explain what was typed.
 #[derive(Clone)]
@@ -150,6 +156,12 @@ type Fit = (f64, After);
 impl System {
     fn weight_of(&self, code: &str) -> u32 {
         self.afterwards.get(code).copied().unwrap_or(0)
+    }
+
+    /// Whether all coefficients but one agree with the right answer.
+    fn is_one_off(&self, typed: &Typed) -> bool {
+        let right = self.choices.iter().map(|(_, row)| row);
+        in_question(right, typed).iter().any(|places| places.count_ones() == 1)
     }
 
     /// Each mistake that fits, with the parameter values it fits best with.
@@ -520,6 +532,39 @@ mod tests {
             ("hanging", "-0.06 0", "0.051 0.0078 0.412 0.0589", "parameter.scaled", &["I -> 10*I"]),
             ("hanging", "-0.06 0", "0.0258 0.0042 0.412 0.0589", "parameter.mistaken", &["I -> 0.024"]),
         ]);
+    }
+
+    /// A single coefficient that is off is explained by itself, or not at all: a mistake that moves only that one, mended by
+    /// a digit there, would explain anything.
+    #[test]
+    fn a_single_coefficient_that_is_off_is_no_two_things_at_once() {
+        let question = "questions:
+  function:
+    number: Question 0
+    title: X(s)/F(s)
+    points: 1
+    about: spring.rest
+    answer: {kind: transfer_function, prompt: X(s)/F(s)}
+    criteria: {denominator: {title: Denominator, points: 1, check: denominator}}
+    model_answer: 1/(2s^2 + 12s + 50)
+";
+        let lab = include_str!("../../tests/it/oscillator.yaml").replacen("questions:\n", question, 1);
+        let lab = lab.replace("total: 15", "total: 16").replace("points: 15", "points: 16");
+        let lab = LabDefinition::parse(crate::source::SourceText::new("oscillator.yaml", &lab)).unwrap();
+        let catalogue = Catalogue::new(&lab, &Reference::compute(&lab).unwrap());
+        let of = SystemRef { model: "spring".into(), operating_point: "rest".into() };
+        for (text, codes) in [
+            ("1 / 2 8 50", &[][..]),
+            ("1 / 2 12 58", &["slip.digit"]),
+            ("1 / 2 21 50", &["slip.exchanged"]),
+            // The denominator was divided by 2, the numerator was not: that is no rounding of 0.5.
+            ("1 / 1 6 25", &[]),
+        ] {
+            let (num, den) = text.split_once('/').unwrap();
+            let found = catalogue.diagnose_as_typed(&of, &function(num, den), text, None).unwrap();
+            let found: Vec<_> = found.explanations.iter().map(|one| one.code.as_str()).collect();
+            assert_eq!(found, codes, "{text}");
+        }
     }
 
     /// A lab may say what is likelier, and leave mistakes out.

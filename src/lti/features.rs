@@ -116,7 +116,7 @@ pub struct Features {
     pub extrema: Vec<Extremum>,
     /// 2π/|Im p| of the dominant (slowest-decaying) complex pair present in the response.
     pub period_s: Option<f64>,
-    /// ζ and ω_n (rad/s) of that pair; ζ is negative when it grows.
+    /// ζ and ω_n (rad/s) of that pair, or of two real poles when there are no others; ζ is negative when it grows.
     pub damping_ratio: Option<f64>,
     pub natural_frequency_rad_s: Option<f64>,
     /// −1/Re of the slowest decaying term present, s.
@@ -143,6 +143,10 @@ impl Features {
         let enough_s =
             if final_value == Limit::Oscillates { 4.0 * response.horizon_s() } else { f64::INFINITY };
         let pair = dominant_pair(response);
+        let (damping_ratio, natural_frequency_rad_s) = pair
+            .map(|mode| (-mode.re / mode.speed(), mode.speed()))
+            .or_else(|| of_two_real(response))
+            .unzip();
         let decaying = response.present().filter(|mode| mode.re < 0.0).map(|mode| -1.0 / mode.re);
         let deviation = final_value.value().and_then(|value| {
             let peak = settling::largest_excursion(response, value, f64::INFINITY)?;
@@ -160,8 +164,8 @@ impl Features {
             peak: if bounded { settling::largest_excursion(response, 0.0, enough_s) } else { None },
             extrema,
             period_s: pair.map(|mode| TAU / mode.im),
-            damping_ratio: pair.map(|mode| -mode.re / mode.speed()),
-            natural_frequency_rad_s: pair.map(Mode::speed),
+            damping_ratio,
+            natural_frequency_rad_s,
             slowest_time_constant_s: decaying.reduce(f64::max),
             settling_time_2_percent_s: settled(0.02),
             settling_time_5_percent_s: settled(0.05),
@@ -203,6 +207,19 @@ fn dominant_pair(response: &Response) -> Option<&Mode> {
         Some(b) if (b.re, b.amplitude()) >= (mode.re, mode.amplitude()) => best,
         _ => Some(mode),
     })
+}
+
+/// ζ and ω_n of s² + 2ζω_n·s + ω_n² with real roots (ζ² ≥ 1), when these two are all the response shows.
+fn of_two_real(response: &Response) -> Option<(f64, f64)> {
+    let constant_of_a_step = |mode: &Mode| response.kind == InputKind::Step && mode.is_constant();
+    let mut poles: Vec<f64> = Vec::new();
+    for mode in response.present().filter(|mode| !constant_of_a_step(mode)) {
+        let known = poles.iter().filter(|pole| **pole == mode.re).count();
+        poles.extend(std::iter::repeat_n(mode.re, (mode.power + 1).saturating_sub(known)));
+    }
+    let [first, second] = poles[..] else { return None };
+    let speed = (first * second).sqrt();
+    (first * second > 0.0 && speed.is_finite()).then(|| (-(first + second) / 2.0 / speed, speed))
 }
 
 /// How far y goes beyond `value`, in percent of it.
@@ -525,6 +542,28 @@ mod tests {
                     settled <= envelope && settled >= envelope - pi / damped,
                     "{what}: {settled}, not {envelope}"
                 );
+            }
+        }
+    }
+
+    #[test]
+    fn two_real_poles_have_a_damping_ratio_and_no_period() {
+        for (what, g, expected) in [
+            ("critically damped", ("25", "1 10 25"), Some((1.0, 5.0))),
+            ("overdamped", ("25", "1 15 25"), Some((1.5, 5.0))),
+            ("with a zero", ("1 7", "1 15 25"), Some((1.5, 5.0))),
+            ("growing", ("25", "1 -15 25"), Some((-1.5, 5.0))),
+            ("to both sides", ("25", "1 15 -25"), None),
+            ("an integrator", ("25", "1 15 0"), None),
+            ("one pole", ("25", "1 15"), None),
+            ("three poles", ("6", "1 6 11 6"), None),
+            ("two of them and an integrator", ("6", "1 3 2 0"), None),
+        ] {
+            for kind in [Impulse, Step] {
+                let found = features(g, kind);
+                close_option(what, found.damping_ratio, expected.map(|(zeta, _)| zeta));
+                close_option(what, found.natural_frequency_rad_s, expected.map(|(_, speed)| speed));
+                assert_eq!(found.period_s, None, "{what}");
             }
         }
     }
