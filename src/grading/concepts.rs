@@ -27,7 +27,8 @@ fn needed_of(concepts: &[Concept], needed: usize) -> usize {
 /// Prose by the concepts it states. Always provisional: words are evidence of a thought, not the thought.
 ///
 /// A concept counts when one of its phrases is claimed, half when the same phrase is also denied elsewhere; a contradiction
-/// that is claimed takes all, unless it is said of something this is set against (`unlike the stable position`).
+/// that is claimed takes all, unless it is said of something this is set against (`unlike the stable position`) or of how it
+/// begins (`at first it grows`).
 pub(super) fn judge(
     points: Points,
     concepts: &[Concept],

@@ -235,6 +235,8 @@ mod tests {
             ("It is unstable, as we had expected.", "it is unstable"),
             ("We expected it to be stable, but it is unstable.", "it is unstable"),
             ("It is an unstable equilibrium.", "it is unstable"),
+            ("It grows exponentially; the two stable poles die away.", "it grows without bound"),
+            ("The stable mode is soon gone.", ""),
         ]);
     }
 
@@ -253,6 +255,11 @@ mod tests {
             ("It doesn't come to rest.", "it does not settle"),
             ("It grows without bound.", "it grows without bound"),
             ("The angle goes to infinity.", "it grows without bound"),
+            ("The angle runs away.", "it grows without bound"),
+            ("The angle tends to minus infinity.", "it grows without bound"),
+            ("The angle goes to negative infinity.", "it grows without bound"),
+            ("As t goes to plus infinity the oscillation vanishes.", "it oscillates"),
+            ("It does not run away.", "it does not grow without bound"),
             ("It diverges exponentially.", "it grows without bound"),
             ("The output is unbounded.", "it grows without bound"),
             ("It does not grow without bound.", "it does not grow without bound"),

@@ -35,7 +35,7 @@ pub struct Said {
     pub first: usize,
     pub last: usize,
     pub denied: bool,
-    /// Said of what this is set against: `unlike the stable position`.
+    /// Said of what this is set against, `unlike the stable position`, or of how it begins, `at first it grows`.
     pub contrasted: bool,
 }
 
@@ -270,10 +270,11 @@ const OTHER_CASES: &[&str] = &[
     "can",
     "could",
 ];
-/// Words after which a clause speaks of what this is set against.
-const CONTRASTS: &[&str] = &["unlike", "whereas", "while", "whilst"];
+/// Words after which a clause speaks of what this is set against, or of how it only begins.
+const CONTRASTS: &[&str] = &["unlike", "whereas", "while", "whilst", "initially"];
 /// The same in two words.
 const CONTRAST_PAIRS: &[(&str, &str)] = &[
+    ("at", "first"),
     ("contrast", "to"),
     ("contrast", "with"),
     ("contrary", "to"),
@@ -333,7 +334,7 @@ fn stance(sentence: &[Token], places: &[usize]) -> Stance {
     }
 }
 
-/// Whether the clause says what it says of something else before `first`: `unlike the …`, `whereas the …`.
+/// Whether the clause says before `first` that it speaks of something else, or of the beginning: `unlike the …`, `at first …`.
 fn contrasted(sentence: &[Token], first: usize) -> bool {
     for place in (first.saturating_sub(LONGEST_LOOK)..first).rev() {
         let (Some(token), Some(next)) = (sentence.get(place), sentence.get(place + 1)) else { return false };
@@ -623,6 +624,9 @@ mod tests {
             ("Unlike the bottom, it is stable.", false),
             ("While it swings but it is stable.", false),
             ("It is stable, unlike the other.", false),
+            ("At first it is stable and then it falls.", true),
+            ("Initially it seems stable.", true),
+            ("It is at first unclear, but it is stable.", false),
             ("It is stable.", false),
         ] {
             let said: Vec<_> = sentences(text).iter().flat_map(|sentence| phrase.said_in(sentence)).collect();
