@@ -21,7 +21,7 @@ const ROUNDING: f64 = 1.0 + 1e-10;
 /// Radii wanted, relative to each part of the root: 2⁻⁶⁰.
 const PRECISION_BITS: i64 = 60;
 const FIRST_BITS: usize = 128;
-const MOST_BITS: usize = 1024;
+const MOST_BITS: usize = 4096;
 const FLOAT_SWEEPS: usize = 80;
 const EXACT_SWEEPS: usize = 400;
 
@@ -33,29 +33,41 @@ const EXACT_SWEEPS: usize = 400;
 /// Every disc holds one root and no other: Smith's discs of radius n·|p(zᵢ)| / |aₙ ∏(zᵢ − zⱼ)| around exact points,
 /// from exact values of p. Where a disc meets its own mirror image and no other disc, its root is on the axis.
 /// Source: Ehrlich–Aberth iteration from Newton-polygon starting points (Bini, *Numer. Algorithms* 13, 1996), first in
-/// floating point, then on exact values; Smith, *J. ACM* 17, 1970.
+/// floating point, then on exact values; clusters, where it gains a bit a sweep, by their own Taylor series; Smith,
+/// *J. ACM* 17, 1970.
 pub(super) fn simple_roots(p: &[IBig], even: bool) -> Result<Vec<Disc>, RootError> {
-    let mut points: Vec<Dyadic> = float_roots(p).into_iter().map(Dyadic::near).collect();
+    let mut points: Vec<Dyadic> = float_roots(&in_floating_point(p)).into_iter().map(Dyadic::near).collect();
+    let mut values: Vec<Vec<Wide>> = points.iter().map(|z| taylor(p, z, 2)).collect();
     let mut bits = FIRST_BITS;
     let mut sweeps = 0;
     while bits <= MOST_BITS && sweeps < EXACT_SWEEPS {
         sweeps += 1;
-        let values: Vec<Vec<Wide>> = points.iter().map(|z| taylor(p, z, 2)).collect();
         let differences = differences(&points);
-        let discs = discs(p, &points, &values, &differences);
-        if let Some(certified) = certify(&discs, &differences, even) {
-            return Ok(certified);
+        let discs: Vec<Option<Disc>> =
+            (0..points.len()).map(|i| disc(p, i, &points[i], values[i][0], &differences[i])).collect();
+        let settled: Vec<Option<Disc>> =
+            (0..points.len()).map(|i| settled(i, &discs, &differences, even)).collect();
+        if let Some(all) = settled.iter().cloned().collect::<Option<Vec<Disc>>>() {
+            return Ok(all.into_iter().filter(|disc| disc.center.im().mantissa().re >= 0.0).collect());
         }
+        // By turns, so that neither stands in the other's way.
+        let mut moved = if sweeps % 2 == 0 {
+            apart(p, &points, &discs, &differences, bits)
+        } else {
+            vec![None; points.len()]
+        };
         let mut largest_step = i64::MIN;
-        let mut moved = Vec::with_capacity(points.len());
-        for (i, z) in points.iter().enumerate() {
-            let step = aberth_step(values[i][0], values[i][1], &differences[i], i, z.to_wide());
+        for (i, z) in points.iter_mut().enumerate().filter(|&(i, _)| settled[i].is_none()) {
+            let next = moved[i].take().unwrap_or_else(|| {
+                z.moved(aberth_step(values[i][0], values[i][1], &differences[i], i, z.to_wide()), bits)
+            });
+            let step = next.minus(z).to_wide();
             if !step.is_zero() {
                 largest_step = largest_step.max(step.exponent() - z.to_wide().exponent());
+                values[i] = taylor(p, &next, 2);
+                *z = next;
             }
-            moved.push(z.moved(step, bits));
         }
-        points = moved;
         if largest_step < 16 - bits as i64 / 2 {
             bits *= 2;
         }
@@ -63,9 +75,94 @@ pub(super) fn simple_roots(p: &[IBig], even: bool) -> Result<Vec<Disc>, RootErro
     Err(RootError::NotConverged { iterations: sweeps })
 }
 
+/// New places for the points of clusters, where their discs become smaller by it.
+fn apart(
+    p: &[IBig],
+    points: &[Dyadic],
+    discs: &[Option<Disc>],
+    differences: &[Vec<Wide>],
+    bits: usize,
+) -> Vec<Option<Dyadic>> {
+    let mut moved = vec![None; points.len()];
+    let widest = |cluster: &[usize], discs: &[Option<Disc>]| {
+        let radii: Option<Vec<Wide>> =
+            cluster.iter().map(|&i| discs[i].as_ref().map(|disc| disc.radius)).collect();
+        radii.and_then(|radii| radii.into_iter().max_by(|a, b| a.cmp_abs(*b)))
+    };
+    for cluster in clusters(points, discs, differences) {
+        let places = taken_apart(p, &points[cluster[0]], cluster.len(), bits);
+        let mut there = points.to_vec();
+        for (&i, z) in cluster.iter().zip(&places) {
+            there[i] = z.clone();
+        }
+        let at =
+            |&i: &usize| disc(p, i, &there[i], taylor(p, &there[i], 1)[0], &row_of_differences(&there, i));
+        let new: Vec<Option<Disc>> = cluster.iter().map(at).collect();
+        let everyone: Vec<usize> = (0..new.len()).collect();
+        let better = match (widest(&everyone, &new), widest(&cluster, discs)) {
+            (Some(new), Some(old)) => new.cmp_abs(old) == Ordering::Less,
+            (new, _) => new.is_some(),
+        };
+        if better {
+            for i in cluster {
+                moved[i] = Some(there[i].clone());
+            }
+        }
+    }
+    moved
+}
+
+/// Groups of points that stand for roots not yet told apart, far from all others and from 0.
+fn clusters(points: &[Dyadic], discs: &[Option<Disc>], differences: &[Vec<Wide>]) -> Vec<Vec<usize>> {
+    let radius = |i: usize| discs[i].as_ref().map_or(Wide::ZERO, |disc| disc.radius);
+    let meet = |i: usize, j: usize| differences[i][j].cmp_abs(radius(i) + radius(j)) != Ordering::Greater;
+    let mut left: Vec<usize> = (0..points.len()).collect();
+    let mut found = Vec::new();
+    while let Some(first) = left.pop() {
+        let mut cluster = vec![first];
+        let mut at = 0;
+        while let Some(&i) = cluster.get(at) {
+            cluster.extend(left.extract_if(.., |j| meet(i, *j)));
+            at += 1;
+        }
+        let mut across = Wide::ZERO;
+        let mut away = points[first].to_wide();
+        for (&i, j) in cluster.iter().flat_map(|i| (0..points.len()).map(move |j| (i, j))) {
+            let distance = differences[i][j];
+            let inside = cluster.contains(&j);
+            if inside && distance.cmp_abs(across) == Ordering::Greater {
+                across = distance;
+            } else if !inside && distance.cmp_abs(away) == Ordering::Less {
+                away = distance;
+            }
+        }
+        if cluster.len() > 1 && across.shifted(3).cmp_abs(away) == Ordering::Less {
+            found.push(cluster);
+        }
+    }
+    found
+}
+
+/// Where `count` roots near `z` and far from all others are, to the precision of the series about their mean that ends with
+/// h^`count`; none when it has no such term.
+fn taken_apart(p: &[IBig], z: &Dyadic, count: usize, bits: usize) -> Vec<Dyadic> {
+    let series = taylor(p, z, count + 1);
+    let mean = series[count - 1] / (series[count] * Wide::real(count as f64, 0));
+    let mean = z.moved(mean, bits);
+    let mut series = taylor(p, &mean, count + 1);
+    if series[count].is_zero() {
+        return Vec::new();
+    }
+    series.reverse();
+    let at_mean = series.iter().rev().take_while(|c| c.is_zero()).count();
+    series.truncate(count + 1 - at_mean);
+    let mut offsets = float_roots(&series);
+    offsets.resize(count, Wide::ZERO);
+    offsets.into_iter().map(|h| mean.moved(-h, bits)).collect()
+}
+
 /// Where the Ehrlich–Aberth iteration in floating point comes to rest, or gives up.
-fn float_roots(p: &[IBig]) -> Vec<Wide> {
-    let coefficients = in_floating_point(p);
+fn float_roots(coefficients: &[Wide]) -> Vec<Wide> {
     let sizes: Vec<Wide> = coefficients.iter().map(|c| c.abs()).collect();
     let mut points = starting_points(&sizes);
     let n = points.len();
@@ -76,7 +173,7 @@ fn float_roots(p: &[IBig]) -> Vec<Wide> {
                 continue;
             }
             let z = points[i];
-            let (value, slope) = horner(&coefficients, z);
+            let (value, slope) = horner(coefficients, z);
             let (size, _) = horner(&sizes, z.abs());
             let rounding = size * Wide::real(4.0 * (n + 1) as f64 * f64::EPSILON, 0);
             if value.cmp_abs(rounding) != Ordering::Greater {
@@ -159,78 +256,52 @@ fn starting_points(sizes: &[Wide]) -> Vec<Wide> {
 
 /// zᵢ − zⱼ.
 fn differences(points: &[Dyadic]) -> Vec<Vec<Wide>> {
-    let n = points.len();
-    let mut table = vec![vec![Wide::ZERO; n]; n];
-    for i in 0..n {
-        for j in 0..i {
-            table[i][j] = points[i].minus(&points[j]).to_wide();
-            table[j][i] = -table[i][j];
-        }
-    }
-    table
+    (0..points.len()).map(|i| row_of_differences(points, i)).collect()
 }
 
-/// Smith's discs; `None` where two points coincide.
-fn discs(
-    p: &[IBig],
-    points: &[Dyadic],
-    values: &[Vec<Wide>],
-    differences: &[Vec<Wide>],
-) -> Vec<Option<Disc>> {
-    let degree = Wide::real(points.len() as f64 * ROUNDING, 0);
-    let lead =
+fn row_of_differences(points: &[Dyadic], i: usize) -> Vec<Wide> {
+    points.iter().map(|z| points[i].minus(z).to_wide()).collect()
+}
+
+/// Smith's disc around a point, from p(z) and its distances to all; `None` where another coincides with it.
+fn disc(p: &[IBig], own: usize, z: &Dyadic, value: Wide, differences: &[Wide]) -> Option<Disc> {
+    let degree = Wide::real(differences.len() as f64 * ROUNDING, 0);
+    let mut product =
         p.first().map_or(Wide::ONE, |c| taylor(std::slice::from_ref(c), &Dyadic::near(Wide::ZERO), 1)[0]);
-    let disc = |(i, center): (usize, &Dyadic)| {
-        let mut product = lead;
-        for (_, &d) in differences[i].iter().enumerate().filter(|&(j, _)| j != i) {
-            product = product * d;
-        }
-        let radius = || degree * values[i][0].abs() / product.abs();
-        (!product.is_zero()).then(|| Disc { center: center.clone(), radius: radius() })
-    };
-    points.iter().enumerate().map(disc).collect()
+    for (_, &d) in differences.iter().enumerate().filter(|&(j, _)| j != own) {
+        product = product * d;
+    }
+    (!product.is_zero()).then(|| Disc { center: z.clone(), radius: degree * value.abs() / product.abs() })
 }
 
-/// The discs on and above the real axis, once all are small, apart from each other, and known to be on an axis or off it.
-fn certify(discs: &[Option<Disc>], differences: &[Vec<Wide>], even: bool) -> Option<Vec<Disc>> {
-    let discs: Vec<&Disc> = discs.iter().map(Option::as_ref).collect::<Option<_>>()?;
-    let reach = |i: usize, j: usize| (discs[i].radius + discs[j].radius) * Wide::real(ROUNDING, 0);
-    for (i, row) in differences.iter().enumerate() {
-        if row[..i].iter().enumerate().any(|(j, d)| d.cmp_abs(reach(i, j)) != Ordering::Greater) {
-            return None;
-        }
-    }
-    // Whether the mirror image of a disc meets no disc but itself.
-    let alone = |i: usize, mirrored: &Dyadic| {
-        (0..discs.len()).all(|j| {
-            let distance = mirrored.minus(&discs[j].center).to_wide();
-            j == i || distance.abs().cmp_abs(reach(i, j)) == Ordering::Greater
-        })
+/// A disc that is small, apart from all others, and known to be on an axis (then so is its center) or off it.
+fn settled(i: usize, discs: &[Option<Disc>], differences: &[Vec<Wide>], even: bool) -> Option<Disc> {
+    let disc = discs[i].as_ref()?;
+    // Whether a distance keeps this disc apart from another; never from one not known yet.
+    let clear = |distance: Wide, j: usize| {
+        let reach = |other: &Disc| (disc.radius + other.radius) * Wide::real(ROUNDING, 0);
+        discs[j].as_ref().is_some_and(|other| distance.cmp_abs(reach(other)) == Ordering::Greater)
     };
-    let meets =
-        |disc: &Disc, part: Wide| part.cmp_abs(disc.radius * Wide::real(ROUNDING, 0)) != Ordering::Greater;
-    let mut certified = Vec::with_capacity(discs.len());
-    for (i, &disc) in discs.iter().enumerate() {
-        let small = |part: Wide| disc.radius.cmp_abs(part.shifted(-PRECISION_BITS)) == Ordering::Less;
-        let (re, im) = (disc.center.re(), disc.center.im());
-        let radius = disc.radius;
-        if meets(disc, im) {
-            if !alone(i, &disc.center.conjugate()) || !small(re) {
-                return None;
-            }
-            certified.push(Disc { center: disc.center.onto_real_axis(), radius });
-        } else if even && meets(disc, re) {
-            if !alone(i, &disc.center.reflected()) || !small(im) {
-                return None;
-            }
-            certified.push(Disc { center: disc.center.onto_imaginary_axis(), radius });
-        } else {
-            if !small(im) || !small(re) {
-                return None;
-            }
-            certified.push(disc.clone());
-        }
+    let others = || (0..discs.len()).filter(|&j| j != i);
+    if !others().all(|j| clear(differences[i][j], j)) {
+        return None;
     }
-    certified.retain(|disc| disc.center.im().mantissa().re >= 0.0);
-    Some(certified)
+    // Whether the mirror image of the disc meets no disc but itself.
+    let alone = |mirrored: &Dyadic| {
+        others()
+            .all(|j| discs[j].as_ref().is_some_and(|other| clear(mirrored.minus(&other.center).to_wide(), j)))
+    };
+    let meets = |part: Wide| part.cmp_abs(disc.radius * Wide::real(ROUNDING, 0)) != Ordering::Greater;
+    let small = |part: Wide| disc.radius.cmp_abs(part.shifted(-PRECISION_BITS)) == Ordering::Less;
+    let (re, im) = (disc.center.re(), disc.center.im());
+    let onto = |center: Dyadic| Some(Disc { center, radius: disc.radius });
+    if meets(im) {
+        let on_axis = alone(&disc.center.conjugate()) && small(re);
+        if on_axis { onto(disc.center.onto_real_axis()) } else { None }
+    } else if even && meets(re) {
+        let on_axis = alone(&disc.center.reflected()) && small(im);
+        if on_axis { onto(disc.center.onto_imaginary_axis()) } else { None }
+    } else {
+        (small(im) && small(re)).then(|| disc.clone())
+    }
 }

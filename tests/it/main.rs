@@ -6,6 +6,7 @@ mod claims;
 mod class_marks;
 mod cli;
 mod conflicts;
+mod hard_polynomials;
 mod laws;
 mod ledger;
 mod marking_examples;
