@@ -1,4 +1,6 @@
 use crate::algebra::{Polynomial, Rational};
+use dashu_int::IBig;
+use dashu_int::ops::Gcd;
 
 /// Stability of a linear system, from the roots of its characteristic polynomial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -120,45 +122,62 @@ fn right_of_regular(p: &Polynomial) -> usize {
     (n as isize - left_less_right).max(0) as usize / 2
 }
 
-/// a, b, and from there the negative remainder of the two before, scaled by positive factors.
-fn sturm_chain(a: &Polynomial, b: &Polynomial) -> Vec<Polynomial> {
-    let mut chain = vec![unit_size(a)];
-    let mut next = unit_size(b);
-    while !next.is_zero() {
-        let rest = chain.last().and_then(|last| last.div_rem(&next)).map(|(_, rest)| unit_size(&-&rest));
+/// a, b, and from there the negative remainder of the two before; all times positive factors that leave small integers,
+/// highest power first.
+fn sturm_chain(a: &Polynomial, b: &Polynomial) -> Vec<Vec<IBig>> {
+    let mut chain = vec![a.primitive()];
+    let mut next = b.primitive();
+    while !next.is_empty() {
+        let rest = chain.last().map(|last| negative_remainder(last, &next)).unwrap_or_default();
         chain.push(next);
-        next = rest.unwrap_or_default();
+        next = rest;
     }
     chain
 }
 
-/// With leading coefficient ±1, signs kept: keeps the numbers of a chain short.
-fn unit_size(p: &Polynomial) -> Polynomial {
-    match p.leading() {
-        Some(lead) if *lead < Rational::ZERO => -&p.monic(),
-        _ => p.monic(),
+/// −(a mod b) times a positive factor; empty for zero. `b` must not be zero.
+fn negative_remainder(a: &[IBig], b: &[IBig]) -> Vec<IBig> {
+    let mut rest = a.to_vec();
+    let b_is_negative = b[0] < IBig::ZERO;
+    for i in 0..(a.len() + 1).saturating_sub(b.len()) {
+        if rest[i] == IBig::ZERO {
+            continue;
+        }
+        let shared = IBig::from((&rest[i]).gcd(&b[0]));
+        let shared = if b_is_negative { -shared } else { shared };
+        let (keep, take) = (&b[0] / &shared, &rest[i] / &shared);
+        for (k, value) in rest[i..].iter_mut().enumerate() {
+            *value *= &keep;
+            if let Some(other) = b.get(k) {
+                *value -= &take * other;
+            }
+        }
     }
+    let rest = rest.into_iter().rev().take(b.len() - 1).map(|c| Rational::from(-c));
+    let mut rest: Vec<Rational> = rest.collect();
+    rest.reverse();
+    Polynomial::new(rest).primitive()
 }
 
-fn sign_changes(chain: &[Polynomial], sign: fn(&Polynomial) -> i8) -> isize {
-    let signs: Vec<i8> = chain.iter().map(sign).filter(|&s| s != 0).collect();
+fn sign_changes(chain: &[Vec<IBig>], sign: fn(&[IBig]) -> i8) -> isize {
+    let signs: Vec<i8> = chain.iter().map(|p| sign(p)).filter(|&s| s != 0).collect();
     signs.windows(2).filter(|pair| pair[0] != pair[1]).count() as isize
 }
 
-fn at_zero(p: &Polynomial) -> i8 {
-    sign_of(&p.coefficient(0))
+fn at_zero(p: &[IBig]) -> i8 {
+    p.last().map_or(0, sign_of)
 }
 
-fn at_plus_infinity(p: &Polynomial) -> i8 {
-    p.leading().map_or(0, sign_of)
+fn at_plus_infinity(p: &[IBig]) -> i8 {
+    p.first().map_or(0, sign_of)
 }
 
-fn at_minus_infinity(p: &Polynomial) -> i8 {
-    if p.degree() % 2 == 1 { -at_plus_infinity(p) } else { at_plus_infinity(p) }
+fn at_minus_infinity(p: &[IBig]) -> i8 {
+    if p.len().is_multiple_of(2) { -at_plus_infinity(p) } else { at_plus_infinity(p) }
 }
 
-fn sign_of(value: &Rational) -> i8 {
-    match value.cmp(&Rational::ZERO) {
+fn sign_of(value: &IBig) -> i8 {
+    match value.cmp(&IBig::ZERO) {
         std::cmp::Ordering::Less => -1,
         std::cmp::Ordering::Equal => 0,
         std::cmp::Ordering::Greater => 1,

@@ -255,7 +255,7 @@ row("Bessel filter of order 10", "Thomson, Proc. IEE 96, 1949", bessel(10))
 row("Bessel filter of order 50", "Thomson, Proc. IEE 96, 1949", bessel(50))
 row("exponential series to s^20", "Szego, 1924: the zeros lie near a curve of his", [factorial(20) // factorial(k) for k in range(20, -1, -1)])
 row("exponential series to s^50", "Szego, 1924", [factorial(50) // factorial(k) for k in range(50, -1, -1)])
-row("Pade of order 12 for a dead time of 1 s", "Golub and Van Loan, Matrix Computations, 11.3", [F(factorial(24 - k) * factorial(12), factorial(12 - k) * factorial(k)) for k in range(12, -1, -1)])
+row("Pade of order 12 for a dead time of 1 s", "Golub and Van Loan, Matrix Computations, Pade approximants of exp", [F(factorial(24 - k) * factorial(12), factorial(12 - k) * factorial(k)) for k in range(12, -1, -1)])
 
 # Random
 for seed, n, size in [(1, 8, 9), (2, 15, 9), (3, 20, 10**6), (4, 30, 9), (5, 40, 1000), (6, 50, 9), (7, 50, 10**9)]:
@@ -283,7 +283,7 @@ draw = random.Random(11)
 row("degree 50, coefficients 1e-12 to 1e12 at random", "Python's random.Random(11)", [draw.choice([-1, 1]) * draw.randint(1, 9) * ten(draw.randint(-12, 12)) for _ in range(51)])
 row("RLC in SI units: 1 kohm, 1 mH, 1 pF, and a slow pole", WHOLE, expand(product((1, 10**6, 10**15), (1, F("0.02")))))
 row("roots 1e-150 and 1e150", WHOLE, (1, ten(150), 1))
-jt = "Jenkins and Traub, ACM TOMS 1, 1975, "
+jt = "after Jenkins and Traub, ACM TOMS 1, 1975, "
 row("p1: (s - A)(s + A)(s - 1), A = 1e12", jt + "test 1", *line(ten(12), -ten(12), 1))
 row("p4", jt + "test 4", expand(product(((1, F("-0.1")), 3), *line("0.5", "0.6", "0.7"))))
 row("p5", jt + "test 5", expand(product(((1, F("-0.1")), 4), ((1, F("-0.2")), 3), ((1, F("-0.3")), 2), (1, F("-0.4")))))
@@ -362,7 +362,7 @@ row("Nise 6.5: a row of zeros, degree 8", nise + "6.5", (1, 1, 12, 22, 39, 59, 4
 ogata = "Ogata, Modern Control Engineering, Routh's criterion, special cases"
 row("Ogata: zero in the first column", ogata, (1, 2, 1, 2))
 row("Ogata: a row of zeros", ogata, (1, 2, 24, 48, -25, -50))
-row("zero in the first column, degree 5", "Dorf and Bishop, Modern Control Systems, 6.2", (1, 2, 2, 4, 11, 10))
+row("zero in the first column, degree 5", "Dorf and Bishop, Modern Control Systems, section 6.2", (1, 2, 2, 4, 11, 10))
 row("third row starts with zero", WHOLE, (1, 1, 1, 1, 1))
 row("third row starts with zero, degree 6", WHOLE, (1, 1, 1, 1, 2, 3, 1))
 row("two rows of zeros", WHOLE, expand(product(((1, 0, 1), 2), (1, 1), (1, 2))))

@@ -1,67 +1,8 @@
 //! Roots, multiplicities and verdicts of hard polynomials, against 60 digits found by another route.
 
-use polemark::algebra::{Polynomial, Rational, parse_decimal};
+use crate::hard_table::{Entry, multiplied_out, table};
+use polemark::algebra::{Polynomial, Rational};
 use polemark::lti::{Pole, Stability, TransferFunction, right_half_plane_roots, roots, stability};
-
-/// One entry of the table; its head says what each line means.
-#[derive(Default)]
-struct Entry {
-    name: String,
-    p: Polynomial,
-    num: Option<Polynomial>,
-    cancels: usize,
-    stability: String,
-    right: usize,
-    refused: Option<String>,
-    /// Multiplicity, real and imaginary part; none below the real axis.
-    roots: Vec<(usize, Rational, Rational)>,
-}
-
-fn table() -> Vec<Entry> {
-    let mut entries: Vec<Entry> = Vec::new();
-    let lines = include_str!("hard_polynomials.txt").lines();
-    for line in lines.filter(|line| !line.is_empty() && !line.starts_with('#')) {
-        if let Some(name) = line.strip_prefix('[').and_then(|rest| rest.strip_suffix(']')) {
-            entries.push(Entry { name: name.to_string(), ..Entry::default() });
-            continue;
-        }
-        let entry = entries.last_mut().expect("a name comes first");
-        match line.split_once(": ") {
-            Some(("source", _)) => {}
-            Some(("p", text)) => entry.p = multiplied_out(text),
-            Some(("num", text)) => entry.num = Some(multiplied_out(text)),
-            Some(("cancels", text)) => entry.cancels = text.parse().unwrap(),
-            Some(("stability", text)) => entry.stability = text.to_string(),
-            Some(("right", text)) => entry.right = text.parse().unwrap(),
-            Some(("refused", text)) => entry.refused = Some(text.to_string()),
-            Some((key, _)) => panic!("{}: {key}", entry.name),
-            None => {
-                let parts: Vec<&str> = line.split(' ').collect();
-                let [multiplicity, re, im] = parts[..] else { panic!("{}: {line}", entry.name) };
-                entry.roots.push((multiplicity.parse().unwrap(), decimal(re), decimal(im)));
-            }
-        }
-    }
-    entries
-}
-
-/// `1 2 3` or `(1 1)^10 (1 2)`.
-fn multiplied_out(text: &str) -> Polynomial {
-    let polynomial = |text: &str| Polynomial::new(text.split_whitespace().map(decimal).collect());
-    if !text.starts_with('(') {
-        return polynomial(text);
-    }
-    text.split('(').skip(1).fold(Polynomial::one(), |product, factor| {
-        let (coefficients, power) = factor.split_once(')').unwrap();
-        let power = power.trim().strip_prefix('^').map_or(1, |power| power.parse().unwrap());
-        (0..power).fold(product, |product, _| &product * &polynomial(coefficients))
-    })
-}
-
-/// Also of more digits than a lab file may have.
-fn decimal(text: &str) -> Rational {
-    parse_decimal(text).unwrap_or_else(|error| panic!("{text}: {error}"))
-}
 
 fn exactly(value: f64) -> Rational {
     Rational::try_from(value).unwrap()
@@ -162,7 +103,8 @@ fn the_worst_that_can_be_typed_ends() {
         let digit = |k: usize| char::from(b'0' + ((seed + 1) * (k + 3) * (k + seed * seed) % 97 % 10) as u8);
         format!("1{}", (0..399).map(digit).collect::<String>())
     };
-    let from = |term: &dyn Fn(usize) -> String| multiplied_out(&(0..=60).map(term).collect::<Vec<_>>().join(" "));
+    let from =
+        |term: &dyn Fn(usize) -> String| multiplied_out(&(0..=60).map(term).collect::<Vec<_>>().join(" "));
     let of_400_digits = from(&digits);
     let of_all_sizes = from(&|k| format!("{}e{}", k % 7 + 1, (k * k * 37 % 801) as i64 - 400));
     let thirty = multiplied_out("(1 2 3 4 5 6 7 8 9 1 2 3 4 5 6)^2 (1 1)^2");
@@ -181,9 +123,7 @@ fn the_worst_that_can_be_typed_ends() {
         ("a pair that agrees in 6000 digits", too_close),
     ] {
         let verdict = stability(&p);
-let t = std::time::Instant::now();
         let found = roots(&p);
-eprintln!("{what} {:?} {:?}", t.elapsed(), found.as_ref().map(|x|x.len()));
         if let Ok(found) = found {
             assert_eq!(stability_of(&found), verdict, "{what}");
         }

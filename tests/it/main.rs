@@ -7,6 +7,7 @@ mod class_marks;
 mod cli;
 mod conflicts;
 mod hard_polynomials;
+mod hard_table;
 mod laws;
 mod ledger;
 mod marking_examples;
