@@ -2,7 +2,7 @@ use super::mark::{Mark, share};
 use super::{Evidence, PhraseMatch, Stance, Verdict};
 use crate::algebra::Rational;
 use crate::lab::{Concept, Points};
-use crate::prose::{Phrase, Token, sentences};
+use crate::prose::{Phrase, Sentence, sentences};
 
 /// More words than these are not shown.
 const MOST_SHOWN: usize = 60;
@@ -156,7 +156,7 @@ struct Match {
 }
 
 /// Every place where a phrase of `concept` is said, the longer phrase where one stands within another, in text order.
-fn matches(concept: &Concept, sentences: &[Vec<Token>]) -> Vec<Match> {
+fn matches(concept: &Concept, sentences: &[Sentence]) -> Vec<Match> {
     let mut all = Vec::new();
     for (phrase, text) in concept.phrases.iter().enumerate() {
         let words = Phrase::new(text);

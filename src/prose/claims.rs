@@ -1,9 +1,9 @@
 use super::context::{self, Remark};
 use super::number::ClaimedNumber;
 use super::phrase::Said;
+use super::sentence::{Sentence, sentences};
 use super::values::{of, values};
 use super::vocabulary::PHRASES;
-use super::words::{Token, sentences};
 use crate::source::Span;
 
 /// More claims than these are not looked for: nobody says so much about one response.
@@ -108,7 +108,7 @@ pub fn claims(prose: &str, elsewhere: &[&str]) -> Vec<Claim> {
     kept
 }
 
-fn in_sentence(prose: &str, sentence: &[Token]) -> Vec<Claim> {
+fn in_sentence(prose: &str, sentence: &Sentence) -> Vec<Claim> {
     struct Candidate {
         said: Said,
         kind: Option<ClaimKind>,

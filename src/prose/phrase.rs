@@ -1,5 +1,6 @@
 //! Where prose says a phrase, and whether it says so or denies it.
 
+use super::sentence::{Beginnings, Sentence};
 use super::words::{Gap, Token, words};
 use crate::source::Span;
 
@@ -10,6 +11,7 @@ const BETWEEN: usize = 3;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Phrase {
     words: Vec<PhraseWord>,
+    beginnings: Beginnings,
     /// How many others may stand between two of the words.
     between: usize,
 }
@@ -53,7 +55,11 @@ impl Phrase {
                 last.stem = stem;
             }
         }
-        Self { words: all, between: BETWEEN }
+        let beginning = |word: &PhraseWord| {
+            if word.stem { Beginnings::of_stem(&word.text) } else { Beginnings::of_word(&word.text) }
+        };
+        let beginnings = all.iter().map(beginning).fold(Beginnings::default(), Beginnings::and);
+        Self { words: all, beginnings, between: BETWEEN }
     }
 
     /// With at most `between` other words between two of its own.
@@ -63,7 +69,10 @@ impl Phrase {
 
     /// Every place where `sentence` says the phrase: its words in order, a few others at most and no punctuation between
     /// two of them, as close together as they stand.
-    pub fn said_in(&self, sentence: &[Token]) -> Vec<Said> {
+    pub fn said_in(&self, sentence: &Sentence) -> Vec<Said> {
+        if !sentence.may_have(self.beginnings) {
+            return Vec::new();
+        }
         let mut all: Vec<Vec<usize>> = Vec::new();
         let Some(begins) = self.words.first() else { return Vec::new() };
         let starts = (0..sentence.len()).filter(|&start| begins.matches(&sentence[start]));
@@ -467,7 +476,7 @@ fn being_there(verb: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::words::sentences;
+    use super::super::sentence::sentences;
     use super::*;
 
     #[track_caller]

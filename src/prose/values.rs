@@ -4,6 +4,7 @@ use super::claims::{Claim, ClaimKind, Quantity};
 use super::context::{self, Remark};
 use super::number::{ClaimedNumber, Unit, number_at};
 use super::phrase::{Phrase, Said};
+use super::sentence::Sentence;
 use super::words::{Gap, Token};
 use crate::source::Span;
 use std::sync::LazyLock;
@@ -201,7 +202,7 @@ const ABOUT: &[&str] = &["about", "approximately", "around", "roughly", "nearly"
 const MOST_FILLERS: usize = 6;
 
 /// The values that `sentence` claims, in text order.
-pub(super) fn values(prose: &str, sentence: &[Token]) -> Vec<Claim> {
+pub(super) fn values(prose: &str, sentence: &Sentence) -> Vec<Claim> {
     let mut all: Vec<(usize, Claim)> = Vec::new();
     for head in HEADS.iter() {
         for said in head.phrase.said_in(sentence) {

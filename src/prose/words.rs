@@ -1,4 +1,4 @@
-//! Prose as sentences of words, each with the bytes it stands on.
+//! Prose as words, each with the bytes it stands on.
 
 use crate::source::Span;
 use unicode_normalization::UnicodeNormalization;
@@ -37,21 +37,6 @@ const BARE_CONTRACTIONS: &[&str] = &[
     "shouldnt", "hasnt", "havent", "hadnt",
 ];
 
-/// The sentences of Markdown `text`, formulas reduced to a single word each. Linear in the length of the text.
-pub fn sentences(text: &str) -> Vec<Vec<Token>> {
-    let mut sentences = vec![Vec::new()];
-    for token in words(text) {
-        if token.gap == Gap::Sentence && sentences.last().is_some_and(|last: &Vec<Token>| !last.is_empty()) {
-            sentences.push(Vec::new());
-        }
-        if let Some(last) = sentences.last_mut() {
-            last.push(token);
-        }
-    }
-    sentences.retain(|sentence| !sentence.is_empty());
-    sentences
-}
-
 /// The words of `text` one space apart: what is left when capitals, punctuation and line ends make no difference.
 pub fn normalized(text: &str) -> String {
     let word = |token: &Token| match token.text.as_str() {
@@ -61,7 +46,7 @@ pub fn normalized(text: &str) -> String {
     words(text).iter().map(word).collect::<Vec<_>>().join(" ")
 }
 
-/// The words of `text` in order.
+/// The words of `text` in order. Linear in the length of the text.
 pub fn words(text: &str) -> Vec<Token> {
     let mut found = Vec::new();
     let mut gap = Gap::Sentence;
@@ -201,32 +186,26 @@ fn formula_end(text: &str, start: usize) -> Option<usize> {
     if fence == "$" && inside.starts_with(char::is_whitespace) {
         return None;
     }
-    let mut from = 0;
-    while let Some(offset) = inside.get(from..)?.find(fence) {
-        let end = from + offset;
-        let body = &inside[..end];
-        if end > LONGEST_FORMULA || body.contains("\n\n") {
-            return None;
-        }
-        let after = inside[end + fence.len()..].chars().next();
-        let closes = fence == "$$"
-            || (!body.ends_with(char::is_whitespace)
-                && !body.ends_with('\\')
-                && !after.is_some_and(|next| next.is_ascii_digit()));
-        if closes && !body.is_empty() {
-            return Some(start + fence.len() + end + fence.len());
-        }
-        from = end + fence.len();
-    }
-    None
+    let reach = &inside[..inside.floor_char_boundary(LONGEST_FORMULA + fence.len())];
+    let paragraph = reach.split_once("\n\n").map_or(reach, |(before, _)| before);
+    let closes = |end: &usize| {
+        let (body, after) = (&inside[..*end], inside[end + fence.len()..].chars().next());
+        let single = !body.ends_with(char::is_whitespace)
+            && !body.ends_with('\\')
+            && !after.is_some_and(|next| next.is_ascii_digit());
+        !body.is_empty() && (fence == "$$" || single)
+    };
+    let end = paragraph.match_indices(fence).map(|(end, _)| end).find(closes)?;
+    Some(start + fence.len() + end + fence.len())
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::sentence::{Sentence, sentences};
     use super::*;
 
     fn shown(text: &str) -> String {
-        let sentence = |sentence: &Vec<Token>| {
+        let sentence = |sentence: &Sentence| {
             sentence
                 .iter()
                 .map(|token| match token.gap {
