@@ -1,7 +1,7 @@
 //! polemark marks control-systems lab reports from the equations up.
 //!
 //! ```text
-//!    names                   which known name a mistyped one is nearest to
+//!    names    english        which known name a mistyped one is nearest to · lists and capitals in messages
 //!     │
 //!   algebra                  exact rationals, polynomials, expressions
 //!     │           source     text with places in it: spans, findings, a YAML tree
@@ -22,6 +22,7 @@
 //!
 //! A module imports from modules above it, never from below.
 
+mod english;
 mod names;
 
 pub mod algebra;

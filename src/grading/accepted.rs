@@ -1,4 +1,5 @@
 use crate::algebra::Rational;
+use crate::english::listed;
 use crate::lab::{Check, LabDefinition, SystemRef};
 use crate::reference::{LinearReference, OperatingPointReference, Reference};
 
@@ -41,10 +42,9 @@ pub(super) fn also<T: ?Sized>(accepted: &[Accepted<'_, T>]) -> String {
         .filter(|one| !one.differs.is_empty())
         .map(|one| one.with().trim_start_matches(" with ").to_owned())
         .collect();
-    match others.split_last() {
-        None => String::new(),
-        Some((only, [])) => format!(" What follows from {only} is accepted too."),
-        Some((last, rest)) => format!(" What follows from {} or {last} is accepted too.", rest.join(", ")),
+    match others.as_slice() {
+        [] => String::new(),
+        others => format!(" What follows from {} is accepted too.", listed(others, "or")),
     }
 }
 

@@ -4,6 +4,7 @@ use super::grade::{Field, Grader};
 use super::mark::Mark;
 use super::truth::Truth;
 use super::{Conflict, Verdict};
+use crate::english::capitalized;
 use crate::lab::{Check, Criterion, Described, LabDefinition, Question};
 use crate::prose::Claim;
 use crate::submission::{AnswerValue, claims_about, contradicted_claims};
@@ -78,13 +79,7 @@ fn against_reference(claim: &Claim, described: &Described, grader: &Grader<'_>) 
     false_for_all.then(|| Conflict {
         span: claim.span,
         claim: claim.words(),
-        against: sentence(&claim.fact(&main.0.what.features, *main.1.what)),
+        against: format!("{}.", capitalized(&claim.fact(&main.0.what.features, *main.1.what))),
         own: false,
     })
-}
-
-fn sentence(clause: &str) -> String {
-    let mut letters = clause.chars();
-    let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
-    format!("{first}{}.", letters.as_str())
 }

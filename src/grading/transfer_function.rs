@@ -4,6 +4,7 @@ use super::closeness::{inward, magnitude, percent};
 use super::mark::{Mark, half, share};
 use super::scale::{Coefficient, Fit, Part, Scaled, scalings};
 use crate::algebra::{Polynomial, Rational, polynomial_text, significant, to_f64};
+use crate::english::capitalized;
 use crate::lab::{Check, Criterion, Points, Tolerance};
 use crate::lti::TransferFunction;
 use std::cmp::Ordering;
@@ -385,11 +386,6 @@ fn orders(g: &TransferFunction) -> String {
         g.den.degree(),
         origin(g.den.trailing_zeros(), "pole")
     )
-}
-
-pub(super) fn capitalized(sentence: &str) -> String {
-    let mut letters = sentence.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 fn text(polynomial: &Polynomial) -> String {

@@ -1,4 +1,5 @@
 use super::Check;
+use crate::english::listed;
 use crate::lab::{LabDefinition, ModelDefinition, OperatingPointDefinition};
 use crate::lti::TransferFunction;
 use crate::model::Mistake;
@@ -109,7 +110,7 @@ impl Led {
                 ([], count) => format!("{count}, all declared"),
                 (undeclared, _) => format!(
                     "no answer shows {}; declare what is meant to be so under `mistakes: {{without_effect: […]}}`",
-                    list(&changes(undeclared))
+                    listed(&changes(undeclared), "and")
                 ),
             },
             holds: undeclared.is_empty(),
@@ -120,14 +121,6 @@ impl Led {
 
 fn changes(mistakes: &[Mistake]) -> Vec<String> {
     mistakes.iter().map(|mistake| format!("`{}`", mistake.change)).collect()
-}
-
-fn list(texts: &[String]) -> String {
-    match texts {
-        [] => String::new(),
-        [only] => only.clone(),
-        [first @ .., last] => format!("{} and {last}", first.join(", ")),
-    }
 }
 
 fn right_functions<'a>(

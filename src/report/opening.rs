@@ -7,6 +7,7 @@ use super::numbers::counted;
 use super::places::{self, Place, question_link};
 use super::prose;
 use super::view::LinkView;
+use crate::english::listed;
 use crate::grading::{Cause, Guard, ItemScore, Scorecard};
 use crate::lab::{LabDefinition, Points, Question};
 use crate::source::sanitize;
@@ -43,7 +44,7 @@ fn complete(lab: &LabDefinition, scorecard: &Scorecard) -> Option<String> {
     };
     let (full, rest): (Vec<&Question>, Vec<&Question>) = lab.questions.iter().partition(|q| is_full(&q.id));
     let links = |questions: &[&Question]| {
-        listed(&questions.iter().map(|q| link(&question_link(q))).collect::<Vec<_>>())
+        listed(&questions.iter().map(|q| link(&question_link(q))).collect::<Vec<_>>(), "and")
     };
     match (full.len(), rest.len()) {
         (0, _) => None,
@@ -118,7 +119,8 @@ fn kept(lab: &LabDefinition, scorecard: &Scorecard, root: &Place<'_>) -> Option<
         format!("{name} ({})", titles.join(", "))
     });
     let parts = parts.collect::<Vec<_>>();
-    (!parts.is_empty()).then(|| format!("{} {were} kept in {}.", counted(total, "point"), listed(&parts)))
+    (!parts.is_empty())
+        .then(|| format!("{} {were} kept in {}.", counted(total, "point"), listed(&parts, "and")))
 }
 
 /// What was lost where nothing, or nothing readable, was written.
@@ -163,13 +165,4 @@ fn link(to: &LinkView) -> String {
     let mut words = String::new();
     escape(&mut words, &to.words);
     format!("<a href=\"#{}\">{words}</a>", to.anchor)
-}
-
-/// `a, b and c`
-fn listed(parts: &[String]) -> String {
-    match parts {
-        [] => String::new(),
-        [one] => one.clone(),
-        [first @ .., last] => format!("{} and {last}", first.join(", ")),
-    }
 }

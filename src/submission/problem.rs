@@ -1,3 +1,4 @@
+use crate::english::capitalized;
 use crate::source::{Finding, Node, sanitize};
 
 /// Why a scalar cannot be read, before it is known where in the file it stands.
@@ -40,8 +41,6 @@ pub(super) fn quote(text: &str) -> String {
 
 /// A lower-case fragment as a sentence.
 pub(super) fn sentence(fragment: &str) -> String {
-    let mut chars = fragment.chars();
-    let first = chars.next().map(|c| c.to_uppercase().collect::<String>()).unwrap_or_default();
     let end = if fragment.ends_with(['.', '?', '!']) { "" } else { "." };
-    format!("{first}{}{end}", chars.as_str())
+    format!("{}{end}", capitalized(fragment))
 }

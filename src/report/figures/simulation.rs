@@ -1,4 +1,5 @@
 use super::frame::{data_series, frame, leaving_words};
+use crate::english::capitalized;
 use crate::lab::SimulationDefinition;
 use crate::nonlinear::{Block, Nonlinearity, Signal};
 use crate::reference::SimulationReference;
@@ -178,11 +179,6 @@ fn switch_words(times: &[f64]) -> String {
         (n, first) if n <= 4 => format!(" It switches {n} times, at {first}\u{a0}s."),
         (n, first) => format!(" It switches {n} times, first at {first}\u{a0}s."),
     }
-}
-
-fn capitalized(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
 
 #[cfg(test)]
