@@ -57,6 +57,12 @@ impl Catalogue {
         Self { systems }
     }
 
+    /// The transfer functions of `of` that the mistakes with these changes lead to.
+    pub(super) fn led_to_by(&self, of: &SystemRef, changes: &[&str]) -> Vec<TransferFunction> {
+        let system = self.systems.iter().find(|system| system.of == *of);
+        system.map_or_else(Vec::new, |system| system.led_to_by(changes))
+    }
+
     /// Follows the pairs of mistakes too, which otherwise the first answer does that no single mistake explains; how many
     /// different functions they lead to.
     pub fn follow_pairs(&self) -> usize {
@@ -117,6 +123,23 @@ impl System {
             let weight = |mistake: usize| self.weights.get(mistake).copied().map_or(0, u64::from);
             Pairs::new(&self.estimates, &simpler, &|pair| weight(pair.first) * weight(pair.second))
         })
+    }
+
+    /// What the mistakes with these changes lead to, with each accepted set of parameter values; of the changes, those that
+    /// are mistakes in the derivation count. None when there are none.
+    pub fn led_to_by(&self, changes: &[&str]) -> Vec<TransferFunction> {
+        let known = self.estimates.mistakes().iter();
+        let made: Vec<&Mistake> = known.filter(|one| changes.contains(&one.change.as_str())).collect();
+        if made.is_empty() {
+            return Vec::new();
+        }
+        let sets = self.estimates.choices().iter();
+        let functions = sets.filter_map(|parameters| {
+            let derivation =
+                Derivation { parameters: parameters.clone(), ..self.estimates.derivation().clone() };
+            derivation.function(&made)
+        });
+        functions.map(|function| function.cancelled().0).collect()
     }
 
     /// What these mistakes lead to with that choice of parameter values, exactly.

@@ -344,6 +344,22 @@ fn the_same_mistake_is_charged_once() {
     // The slip is new.
     let later = two(GRAVITY, "0.06s/(0.0132s^3 + 0.0024s^2 - 0.4166s - 0.0588)");
     LAB.check(&later, &[(up, 100, "denominator.one_slip")]);
+    // Gravity's sign again, and two digits exchanged: only those are new, and one slip costs half of the denominator.
+    let beside = two(GRAVITY, "0.06s/(0.0132s^3 + 0.0042s^2 + 0.41202s + 0.05886)");
+    let card = LAB.check(
+        &beside,
+        &[
+            (up, 100, "denominator.same_mistake"),
+            ("upright.transfer_function.numerator", 200, "numerator.same_mistake"),
+        ],
+    );
+    let lost: i64 = card.ledger.lost.iter().filter(|loss| loss.item == up).map(|loss| loss.points.0).sum();
+    assert_eq!(lost, 100);
+    // Another mistake alone is none of the earlier one's.
+    LAB.check(
+        &two(GRAVITY, "0.06s/(0.0132s^3 - 0.0024s^2 - 0.41202s + 0.05886)"),
+        &[(up, 0, "denominator.sign")],
+    );
     // The earlier function has no such mistake, or nothing of it.
     let friction = "0.06s/(0.0132s^3 - 0.0024s^2 - 0.41202s + 0.05886)";
     LAB.check(&two(RIGHT, friction), &[(up, 0, "denominator.sign")]);

@@ -29,7 +29,7 @@ pub fn grade(
     let earned = |criterion: &Criterion, mark: &Mark| {
         given(criterion, None, hand).map_or(mark.earned, |given| given.points)
     };
-    spare(lab, &earned, &mut marks);
+    spare(lab, &grader, &earned, &mut marks);
     follow(lab, &grader, &earned, &mut marks);
     note_conflicts(lab, &grader, &mut marks);
     scorecard(lab, submission, hand, marks)
@@ -201,6 +201,24 @@ impl<'a> Grader<'a> {
         }
         let expected = |criterion: &Criterion| transfer_function::expected(&criterion.check, &accepted);
         criteria.iter().map(|criterion| self.without_value(criterion, expected(criterion))).collect()
+    }
+
+    /// The marks of `criteria` on the function typed for `of`, held against what `mistakes` made in the derivation lead to;
+    /// `None` when there is no such function, or nothing to hold.
+    pub(super) fn with_mistakes(
+        &self,
+        criteria: &[&Criterion],
+        of: &SystemRef,
+        mistakes: &[&str],
+    ) -> Option<Vec<Mark>> {
+        let Field::Value(_, AnswerValue::TransferFunction { transfer_function: typed, .. }) =
+            self.field(&criteria.first()?.field)
+        else {
+            return None;
+        };
+        let functions = self.catalogue.led_to_by(of, mistakes);
+        let expected: Vec<_> = functions.iter().map(|what| Accepted { differs: &[], what }).collect();
+        (!expected.is_empty()).then(|| transfer_function::judge(criteria, &expected, typed))
     }
 
     /// The mark of a criterion whose answer is not there, cannot be read, or is not of the kind it judges.

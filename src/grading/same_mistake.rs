@@ -1,5 +1,6 @@
 use super::closeness::percent;
 use super::follow_through::{Earned, FollowThrough, OWN_FUNCTION, question_name, root_of};
+use super::grade::Grader;
 use super::mark::{Mark, share};
 use super::{Evidence, Explanation, Guard, Verdict};
 use crate::algebra::Rational;
@@ -8,8 +9,9 @@ use crate::lab::{Check, Criterion, LabDefinition, Points, Question, SystemRef};
 /// Gives back to a later transfer function what it lost by a mistake that was charged at an earlier one of the same model.
 ///
 /// It is the same mistake when what explains the later function is part of what explains the earlier one, and when a common
-/// factor is left in once more. The lab says what part of the points is given back.
-pub(super) fn spare(lab: &LabDefinition, earned: Earned<'_>, marks: &mut [Vec<Mark>]) {
+/// factor is left in once more. Where another mistake came with it, the later function is held against what the earlier
+/// mistake alone leads to. The lab says what part of the points is given back.
+pub(super) fn spare(lab: &LabDefinition, grader: &Grader<'_>, earned: Earned<'_>, marks: &mut [Vec<Mark>]) {
     let part = &lab.follow_through.same_mistake;
     if part.is_zero() {
         return;
@@ -29,14 +31,48 @@ pub(super) fn spare(lab: &LabDefinition, earned: Earned<'_>, marks: &mut [Vec<Ma
                 .find_map(|earlier| Some((earlier.question, earlier.root(mistake, marks, earned)?)))
         };
         let charged = [Mistake::NotCancelled, Mistake::Explained].map(|one| (one, charged_by(one)));
-        for (index, criterion) in &later.criteria {
+        let again = match &charged[1].1 {
+            Some(_) => None,
+            None => earlier.iter().find_map(|earlier| {
+                let root = earlier.root(Mistake::Explained, marks, earned)?;
+                Some((earlier.question, root, made_again(grader, later, earlier, marks)?))
+            }),
+        };
+        for (place_in_function, (index, criterion)) in later.criteria.iter().enumerate() {
             let Some(mark) = marks.get_mut(later.place).and_then(|marks| marks.get_mut(*index)) else {
                 continue;
             };
             let lost = matches!(mark.verdict, Verdict::Wrong | Verdict::Partly);
             let by = charged.iter().find(|(mistake, _)| *mistake == Mistake::of(mark));
-            if let (true, Some((_, Some((question, root))))) = (lost, by) {
-                *mark = spared(criterion, mark, part, question, root);
+            let back = match (by, &again) {
+                _ if !lost => None,
+                (Some((_, Some((question, root)))), _) => {
+                    let why = format!(
+                        "{} It is the same mistake as in {}, where it was charged.",
+                        mark.evidence.reason,
+                        question_name(question)
+                    );
+                    Some(Back { root, without: criterion.points, why })
+                }
+                (_, Some((question, root, without))) if Mistake::of(mark) == Mistake::Explained => {
+                    without.get(place_in_function).map(|one| {
+                        let rest = if one.earned == criterion.points {
+                            String::new()
+                        } else {
+                            format!(" Beside it: {}", one.evidence.reason)
+                        };
+                        let why = format!(
+                            "{} The mistake of {} is in it again, where it was charged.{rest}",
+                            mark.evidence.reason,
+                            question_name(question)
+                        );
+                        Back { root, without: one.earned, why }
+                    })
+                }
+                _ => None,
+            };
+            if let Some(back) = back.filter(|back| back.without > mark.earned) {
+                *mark = spared(criterion, mark, part, back);
             }
         }
     }
@@ -102,31 +138,61 @@ impl Function<'_> {
     }
 }
 
+/// The later function's marks, held against what mistakes of the earlier one lead to there: those that earn the most, where
+/// that is more than by the reference.
+fn made_again(
+    grader: &Grader<'_>,
+    later: &Function<'_>,
+    earlier: &Function<'_>,
+    marks: &[Vec<Mark>],
+) -> Option<Vec<Mark>> {
+    let criteria: Vec<&Criterion> = later.criteria.iter().map(|(_, criterion)| *criterion).collect();
+    let sum = |marks: &[Mark]| marks.iter().map(|mark| mark.earned).sum::<Points>();
+    let base: Points = later.marks(marks).map(|(_, mark)| mark.earned).sum();
+    let mut best: Option<Vec<Mark>> = None;
+    for explanation in earlier.explanations(marks).iter().filter(|one| is_forgivable(one)) {
+        let all: Vec<&str> = explanation.mistakes.iter().map(String::as_str).collect();
+        let each = all.chunks(1).filter(|_| all.len() > 1);
+        for mistakes in std::iter::once(all.as_slice()).chain(each) {
+            let Some(next) = grader.with_mistakes(&criteria, later.of, mistakes) else { continue };
+            if sum(&next) > best.as_deref().map_or(base, sum) {
+                best = Some(next);
+            }
+        }
+    }
+    best
+}
+
+/// Whoever takes one operating point for another makes a new choice each time.
+fn is_forgivable(one: &Explanation) -> bool {
+    !one.mistakes.is_empty() && !one.code.split('+').any(|code| code == "point.other")
+}
+
 fn is_same(later: &[Explanation], earlier: &[Explanation]) -> bool {
-    let forgivable = |one: &&Explanation| {
-        // Whoever takes one operating point for another makes a new choice each time.
-        !one.mistakes.is_empty() && !one.code.split('+').any(|code| code == "point.other")
-    };
-    later.iter().filter(forgivable).any(|later| {
+    later.iter().filter(|one| is_forgivable(one)).any(|later| {
         earlier.iter().any(|earlier| later.mistakes.iter().all(|change| earlier.mistakes.contains(change)))
     })
 }
 
-fn spared(criterion: &Criterion, base: &Mark, part: &Rational, question: &Question, root: &str) -> Mark {
-    let lost = Points(criterion.points.0 - base.earned.0);
-    let back = share(lost, part);
-    let earned = base.earned + back;
-    let mut reason = format!(
-        "{} It is the same mistake as in {}, where it was charged.",
-        base.evidence.reason,
-        question_name(question)
-    );
+/// What an earlier mistake cost again.
+struct Back<'a> {
+    root: &'a str,
+    /// What the criterion earns without it.
+    without: Points,
+    why: String,
+}
+
+fn spared(criterion: &Criterion, base: &Mark, part: &Rational, back: Back<'_>) -> Mark {
+    let lost = Points(back.without.0 - base.earned.0);
+    let given = share(lost, part);
+    let earned = base.earned + given;
+    let mut reason = back.why;
     if *part < Rational::ONE {
         reason.push_str(&format!(" {} of what it would cost here is given back.", percent(part)));
     }
     let own = OWN_FUNCTION.to_owned();
     Mark {
-        verdict: if back == lost { Verdict::Right } else { Verdict::Partly },
+        verdict: if earned == criterion.points { Verdict::Right } else { Verdict::Partly },
         code: match criterion.check {
             Check::Numerator { .. } => "numerator.same_mistake",
             Check::Denominator { .. } => "denominator.same_mistake",
@@ -137,11 +203,11 @@ fn spared(criterion: &Criterion, base: &Mark, part: &Rational, question: &Questi
         follow_through: Some(FollowThrough {
             credited: true,
             guard: Guard::Passed,
-            root: root.to_owned(),
+            root: back.root.to_owned(),
             own,
         }),
-        spared: back,
-        withheld: Points(lost.0 - back.0),
+        spared: given,
+        withheld: Points(lost.0 - given.0),
         ..base.clone()
     }
 }
