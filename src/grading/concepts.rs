@@ -2,7 +2,7 @@ use super::mark::{Mark, share};
 use super::{Evidence, PhraseMatch, Stance, Verdict};
 use crate::algebra::Rational;
 use crate::lab::{Concept, Points};
-use crate::prose::{Phrase, Sentence, sentences};
+use crate::prose::{Sentence, sentences};
 
 /// More words than these are not shown.
 const MOST_SHOWN: usize = 60;
@@ -158,8 +158,7 @@ struct Match {
 /// Every place where a phrase of `concept` is said, the longer phrase where one stands within another, in text order.
 fn matches(concept: &Concept, sentences: &[Sentence]) -> Vec<Match> {
     let mut all = Vec::new();
-    for (phrase, text) in concept.phrases.iter().enumerate() {
-        let words = Phrase::new(text);
+    for (phrase, words) in concept.phrases.iter().enumerate() {
         for said in sentences.iter().flat_map(|sentence| words.said_in(sentence)) {
             let stance = if said.denied { Stance::Denies } else { Stance::Claims };
             all.push(Match {
@@ -217,12 +216,13 @@ fn quotations(phrases: &[PhraseMatch], prose: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::prose::Phrase;
 
     fn concept(id: &str, title: &str, phrases: &[&str]) -> Concept {
         Concept {
             id: id.into(),
             title: title.into(),
-            phrases: phrases.iter().map(|p| (*p).to_owned()).collect(),
+            phrases: phrases.iter().map(|p| Phrase::new(p)).collect(),
         }
     }
 

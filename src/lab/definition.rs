@@ -3,6 +3,7 @@ use crate::algebra::Rational;
 use crate::lti::InputKind;
 use crate::model::{Comparison, Equilibrium, Model};
 use crate::nonlinear::{Chain, Nonlinearity};
+use crate::prose::Phrase;
 use crate::source::{SourceText, Span};
 use crate::submission::{AnswerSheet, FieldKind, NonlinearityKind, Submission};
 use std::fmt;
@@ -280,7 +281,7 @@ pub struct Concept {
     pub id: String,
     /// In words, for the report: `it oscillates about the bottom`.
     pub title: String,
-    pub phrases: Vec<String>,
+    pub phrases: Vec<Phrase>,
 }
 
 /// A row of the observation sheet.

@@ -6,6 +6,7 @@ use crate::lab::file::{ConceptFile, CriterionFile, Entries, QuestionFile, Text};
 use crate::lab::names::list;
 use crate::lab::{AskedFeature, Check, Concept, Criterion, Curve, Described, FeatureKind, SystemRef};
 use crate::lti::InputKind;
+use crate::prose::Phrase;
 use crate::source::Span;
 use crate::submission::{FieldKind, Unit, nonlinearity_word};
 
@@ -353,7 +354,7 @@ impl Checker<'_> {
             (self.findings.len() == before).then(|| Concept {
                 id: id.value.clone(),
                 title: concept.title.trim().to_owned(),
-                phrases: concept.phrases.value.iter().map(|p| p.value.trim().to_owned()).collect(),
+                phrases: concept.phrases.value.iter().map(|p| Phrase::new(&p.value)).collect(),
             })
         });
         let concepts: Vec<_> = concepts.collect();
