@@ -255,6 +255,34 @@ pub(super) enum BlockFile {
         /// > 0.
         width: Text,
     },
+    /// ±`amplitude` after the sign of the input.
+    Relay {
+        /// > 0, in the output's unit.
+        amplitude: Text,
+        /// Half-width of the hysteresis, ≥ 0, in the input's unit. Default 0.
+        hysteresis: Option<Text>,
+        /// Half-width of the dead zone, ≥ 0, in the input's unit; above the hysteresis if there are both. Default 0.
+        dead_zone: Option<Text>,
+    },
+    /// The nearest multiple of `interval` (Simulink's Quantizer block).
+    Quantizer {
+        /// > 0.
+        interval: Text,
+    },
+    /// Limits how fast the signal changes (Simulink's Rate Limiter block).
+    RateLimit {
+        /// > 0, per second.
+        rising: Text,
+        /// < 0, per second.
+        falling: Text,
+    },
+    /// sign(u)·(viscous·|u| + coulomb) (Simulink's Coulomb & Viscous Friction block).
+    CoulombFriction {
+        /// The offset, > 0, in the output's unit.
+        coulomb: Text,
+        /// The gain, ≥ 0, in the output's unit per the input's. Default 0.
+        viscous: Option<Text>,
+    },
     /// A proper transfer function; coefficients highest power first.
     TransferFunction {
         /// Numerator.

@@ -2,6 +2,8 @@
 
 mod chain;
 mod fixed_step;
+#[cfg(test)]
+mod levels_tests;
 mod motion;
 mod nonlinearity;
 mod ode;

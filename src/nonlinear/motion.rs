@@ -3,7 +3,7 @@ use super::{Block, Chain, ChainError, Nonlinearity, Signal};
 use nalgebra::{DMatrix, DVector, RowDVector};
 
 /// Which straight branch of its characteristic a nonlinearity is on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Branch {
     /// Saturation or dead zone: beyond the corner on the negative side.
     Low,
@@ -17,6 +17,14 @@ pub(super) enum Branch {
     Up,
     /// Backlash: pushed towards smaller values.
     Down,
+    /// Relay, quantizer, Coulomb friction: on this level.
+    Level(f64),
+    /// Rate limit: the output is the input.
+    Follow,
+    /// Rate limit: the input is above the output, which rises as fast as it may.
+    Rise,
+    /// Rate limit: the input is below the output, which falls as fast as it may.
+    Fall,
 }
 
 /// Which end of its range a guarded quantity has left.
@@ -47,6 +55,24 @@ impl Quantity {
         [self.value.dot(state), self.rate.dot(state), self.second.dot(state)]
     }
 
+    /// Which way it is going, whatever the first derivative that is not 0: `Above` for up, `None` when it stands still.
+    pub fn direction(&self, state: &DVector<f64>, a: &DMatrix<f64>) -> Option<Side> {
+        /// Less than this share of what it is made of is rounding.
+        const ROUNDING: f64 = 1e-9;
+        let mut row = self.rate.clone();
+        for _ in 0..a.nrows() {
+            let (value, terms) = row
+                .iter()
+                .zip(state.iter())
+                .fold((0.0, 0.0), |(value, terms), (c, x)| (value + c * x, terms + f64::abs(c * x)));
+            if f64::abs(value) > ROUNDING * terms {
+                return Some(if value > 0.0 { Side::Above } else { Side::Below });
+            }
+            row = a.tr_mul(&row);
+        }
+        None
+    }
+
     /// The size of what is added up to make the value: how far it can be off is some `f64::EPSILON` of this.
     pub fn terms(&self, state: &DVector<f64>) -> f64 {
         self.value.iter().zip(state.iter()).map(|(c, x)| (c * x).abs()).sum()
@@ -57,7 +83,7 @@ impl Quantity {
 #[derive(Clone, Debug)]
 pub(super) struct Guard {
     pub block: usize,
-    /// Whether `quantity` is the rate of the block's input: backlash while it is pushed.
+    /// Whether `quantity` is the rate of the block's input: backlash while it is pushed, a rate limit that follows.
     pub on_rate: bool,
     pub quantity: Quantity,
     pub low: f64,
@@ -66,15 +92,15 @@ pub(super) struct Guard {
 
 /// The chain while every nonlinearity stays on its branch: ż = a·z, everything in it a row on z.
 ///
-/// z holds the states of the linear blocks, one held output for each backlash, two states of the source
+/// z holds the states of the linear blocks, one output for each backlash and rate limit, two states of the source
 /// (sine and cosine, or its level), and a 1.
 #[derive(Clone, Debug)]
 pub(super) struct Motion {
     pub a: DMatrix<f64>,
     pub output: Quantity,
     pub guards: Vec<Guard>,
-    /// Input and output of every backlash, with its block.
-    pub backlashes: Vec<(usize, Quantity, Quantity)>,
+    /// Input and output of every backlash and rate limit, with its block.
+    pub holders: Vec<(usize, Quantity, Quantity)>,
 }
 
 /// What does not change with the branches: realizations, and where in z each block keeps its states.
@@ -99,18 +125,22 @@ impl<'a> Plan<'a> {
                     realizations.push(Some(realization));
                 }
                 Block::Nonlinearity(nonlinearity) => {
-                    let (Nonlinearity::Saturation { limit: size }
-                    | Nonlinearity::DeadZone { threshold: size }
-                    | Nonlinearity::Backlash { width: size }) = *nonlinearity;
-                    if !size.is_finite() {
+                    if !nonlinearity.parameters().iter().all(|parameter| parameter.is_finite()) {
                         return Err(ChainError::NotFinite { time_s: 0.0 });
                     }
-                    states += usize::from(nonlinearity.has_memory());
+                    states += usize::from(matches!(
+                        nonlinearity,
+                        Nonlinearity::Backlash { .. } | Nonlinearity::RateLimit { .. }
+                    ));
                     realizations.push(None);
                 }
             }
         }
         Ok(Self { chain, realizations, offsets, source: states })
+    }
+
+    pub fn block(&self, index: usize) -> Option<&Block> {
+        self.chain.blocks.get(index)
     }
 
     /// Everything at rest.
@@ -138,7 +168,7 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// Where in z backlash `block` keeps the output it holds.
+    /// Where in z the backlash or rate limit `block` keeps its output.
     pub fn held(&self, block: usize) -> usize {
         self.offsets[block]
     }
@@ -151,7 +181,15 @@ impl<'a> Plan<'a> {
             .map(|block| match block {
                 Block::Linear { .. } => None,
                 Block::Nonlinearity(Nonlinearity::Backlash { .. }) => Some(Branch::Free),
-                Block::Nonlinearity(_) => Some(Branch::Middle),
+                Block::Nonlinearity(Nonlinearity::RateLimit { .. }) => Some(Branch::Follow),
+                Block::Nonlinearity(
+                    Nonlinearity::Relay { .. }
+                    | Nonlinearity::Quantizer { .. }
+                    | Nonlinearity::CoulombFriction { .. },
+                ) => Some(Branch::Level(0.0)),
+                Block::Nonlinearity(Nonlinearity::Saturation { .. } | Nonlinearity::DeadZone { .. }) => {
+                    Some(Branch::Middle)
+                }
             })
             .collect()
     }
@@ -174,7 +212,7 @@ impl<'a> Plan<'a> {
 
         // Rates need the whole of `a`, so what is guarded is collected first.
         let mut guarded: Vec<(usize, RowDVector<f64>, bool, f64, f64)> = Vec::new();
-        let mut backlashes = Vec::new();
+        let mut holders = Vec::new();
         for (index, block) in self.chain.blocks.iter().enumerate() {
             let at = self.offsets[index];
             let nonlinearity = match (block, &self.realizations[index]) {
@@ -230,7 +268,35 @@ impl<'a> Plan<'a> {
                             guarded.push((index, &input - &signal, false, -half, half));
                         }
                     }
-                    backlashes.push((index, input, signal.clone()));
+                    holders.push((index, input, signal.clone()));
+                }
+                Nonlinearity::RateLimit { rising, falling } => {
+                    let (rising, falling) = (rising.max(0.0), falling.min(0.0));
+                    if branch == Branch::Rise || branch == Branch::Fall {
+                        signal.fill(0.0);
+                        signal[at] = 1.0;
+                        let behind = &input - &signal;
+                        if branch == Branch::Rise {
+                            a[(at, one)] = rising;
+                            guarded.push((index, behind, false, 0.0, f64::INFINITY));
+                        } else {
+                            a[(at, one)] = falling;
+                            guarded.push((index, behind, false, f64::NEG_INFINITY, 0.0));
+                        }
+                    } else {
+                        guarded.push((index, input.clone(), true, falling, rising));
+                    }
+                    holders.push((index, input, signal.clone()));
+                }
+                Nonlinearity::Relay { .. }
+                | Nonlinearity::Quantizer { .. }
+                | Nonlinearity::CoulombFriction { .. } => {
+                    let level = if let Branch::Level(level) = branch { level } else { 0.0 };
+                    let (gain, offset) = nonlinearity.on_level(level);
+                    signal *= gain;
+                    signal[one] += offset;
+                    let (low, high) = nonlinearity.level_range(level);
+                    guarded.push((index, input, false, low, high));
                 }
             }
         }
@@ -242,11 +308,11 @@ impl<'a> Plan<'a> {
                 Guard { block, on_rate, quantity: Quantity::new(&row, &a), low, high }
             })
             .collect();
-        let backlashes = backlashes
+        let holders = holders
             .into_iter()
             .map(|(block, input, output)| (block, Quantity::new(&input, &a), Quantity::new(&output, &a)))
             .collect();
-        Motion { output: Quantity::new(&signal, &a), guards, backlashes, a }
+        Motion { output: Quantity::new(&signal, &a), guards, holders, a }
     }
 }
 
@@ -266,7 +332,7 @@ fn corner_guard(
 }
 
 impl Branch {
-    /// The branch that follows when the guarded quantity leaves its range on `side`.
+    /// The branch that follows when the guarded quantity leaves its range on `side`; levels are the nonlinearity's matter.
     pub fn after(self, side: Side) -> Self {
         match (self, side) {
             (Self::Low, _) | (Self::High, _) => Self::Middle,
@@ -275,6 +341,10 @@ impl Branch {
             (Self::Free, Side::Below) => Self::Down,
             (Self::Free, Side::Above) => Self::Up,
             (Self::Up | Self::Down, _) => Self::Free,
+            (Self::Level(level), _) => Self::Level(level),
+            (Self::Rise | Self::Fall, _) => Self::Follow,
+            (Self::Follow, Side::Below) => Self::Fall,
+            (Self::Follow, Side::Above) => Self::Rise,
         }
     }
 }

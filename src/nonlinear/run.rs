@@ -63,6 +63,24 @@ impl Run {
             None => self.samples.first().map_or(0.0, |sample| sample.1),
         }
     }
+
+    /// As [`at`](Self::at), but at a jump the value before it.
+    pub fn just_before(&self, t: f64) -> f64 {
+        let after = self.pieces.partition_point(|piece| piece.from < t);
+        match self.pieces.get(after.saturating_sub(1)) {
+            Some(piece) => piece.at(t),
+            None => self.samples.first().map_or(0.0, |sample| sample.1),
+        }
+    }
+
+    /// The instants at which the output jumps, ascending.
+    pub fn jumps(&self) -> Vec<f64> {
+        let jumps = self
+            .pieces
+            .windows(2)
+            .filter(|pair| (pair[1].start[0] - pair[0].end[0]).abs() > 1e-9 * self.peak.1);
+        jumps.map(|pair| pair[1].from).collect()
+    }
 }
 
 impl Piece {

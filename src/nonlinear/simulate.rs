@@ -1,6 +1,6 @@
 use super::motion::{Branch, Motion, Plan, Quantity, Side};
 use super::run::{Piece, Run, halfway};
-use super::{Chain, ChainError};
+use super::{Block, Chain, ChainError, Nonlinearity};
 use nalgebra::{DMatrix, DVector};
 
 /// Runs `chain` for `duration_s`, from rest.
@@ -137,8 +137,10 @@ impl Simulation<'_> {
             self.commit(to, &states[event.quarter], &event.state);
             self.state = event.state;
             self.plan.drive_smoothly(&mut self.state, self.time);
+            let before = self.held();
+            let block = self.motion.guards[event.guard].block;
             self.switch(event.guard, event.side)?;
-            self.settle()?;
+            self.settle(&before, Some((block, event.side)))?;
         }
         Ok(())
     }
@@ -276,24 +278,36 @@ impl Simulation<'_> {
 
     /// Puts the nonlinearity behind a broken guard on its next branch.
     fn switch(&mut self, guard: usize, side: Side) -> Result<(), ChainError> {
+        self.count_switch()?;
+        let block = self.motion.guards[guard].block;
+        let Some(branch) = self.branches[block] else { return Ok(()) };
+        // A level is found when its block settles.
+        if !matches!(branch, Branch::Level(_)) {
+            self.change_branch(block, branch.after(side));
+        }
+        self.note_switch();
+        Ok(())
+    }
+
+    fn count_switch(&mut self) -> Result<(), ChainError> {
         self.switches += 1;
         if self.switches > SWITCHES_LIMIT {
             return Err(ChainError::TooManySwitches { limit: SWITCHES_LIMIT, time_s: self.time });
         }
-        let block = self.motion.guards[guard].block;
-        let Some(branch) = self.branches[block] else { return Ok(()) };
-        self.change_branch(block, branch.after(side));
+        Ok(())
+    }
+
+    fn note_switch(&mut self) {
         // What switches together with the source is the source's doing.
         if self.time - self.edge > NOISE * self.time && self.switch_times.last() != Some(&self.time) {
             self.switch_times.push(self.time);
             self.kept.push(self.time);
         }
-        Ok(())
     }
 
     fn change_branch(&mut self, block: usize, branch: Branch) {
-        if branch == Branch::Free
-            && let Some((_, _, output)) = self.motion.backlashes.iter().find(|backlash| backlash.0 == block)
+        if matches!(branch, Branch::Free | Branch::Rise | Branch::Fall)
+            && let Some((_, _, output)) = self.motion.holders.iter().find(|holder| holder.0 == block)
         {
             let held = output.in_state(&self.state)[0];
             self.state[self.plan.held(block)] = held;
@@ -303,12 +317,58 @@ impl Simulation<'_> {
         self.quarter = None;
     }
 
+    /// What every backlash and rate limit takes in and gives out.
+    fn held(&self) -> Vec<Held> {
+        let value = |quantity: &Quantity| quantity.in_state(&self.state)[0];
+        let holders = self.motion.holders.iter();
+        holders.map(|(block, input, output)| (*block, value(input), value(output))).collect()
+    }
+
     /// Switches, down the chain, whatever is not where it may be in the present state.
-    fn settle(&mut self) -> Result<(), ChainError> {
+    ///
+    /// `before` is what was held when the signals last were continuous, `crossed` the block whose guard has just been
+    /// broken.
+    fn settle(&mut self, before: &[Held], crossed: Option<(usize, Side)>) -> Result<(), ChainError> {
         for block in 0..self.branches.len() {
-            self.settle_block(block)?;
+            self.carry(block, before);
+            if matches!(self.branches[block], Some(Branch::Level(_))) {
+                let side = crossed.filter(|(index, _)| *index == block).map(|(_, side)| side);
+                self.settle_level(block, side)?;
+            } else {
+                self.settle_block(block)?;
+            }
         }
+        self.note_peak(self.time, self.motion.output.in_state(&self.state)[0]);
         Ok(())
+    }
+
+    /// A jump carries a backlash from wherever it was, as if its gap had been free at the output it had, and leaves a rate
+    /// limit behind at the output it had.
+    fn carry(&mut self, block: usize, before: &[Held]) {
+        let Some((_, input_before, output_before)) = before.iter().find(|held| held.0 == block).copied()
+        else {
+            return;
+        };
+        let Some((_, input, _)) = self.motion.holders.iter().find(|holder| holder.0 == block) else { return };
+        let value = input.in_state(&self.state)[0];
+        let noise = NOISE * input.terms(&self.state).max(output_before.abs());
+        if (value - input_before).abs() <= noise {
+            return;
+        }
+        let branch = match self.branches[block] {
+            Some(Branch::Follow | Branch::Rise | Branch::Fall) => {
+                if value - output_before > noise {
+                    Branch::Rise
+                } else if value - output_before < -noise {
+                    Branch::Fall
+                } else {
+                    Branch::Follow
+                }
+            }
+            _ => Branch::Free,
+        };
+        self.change_branch(block, branch);
+        self.state[self.plan.held(block)] = output_before;
     }
 
     fn settle_block(&mut self, block: usize) -> Result<(), ChainError> {
@@ -328,37 +388,51 @@ impl Simulation<'_> {
         Ok(())
     }
 
+    /// Puts a block on the level its input is on, or is going to: to the one on `side` if its guard was broken there.
+    fn settle_level(&mut self, block: usize, side: Option<Side>) -> Result<(), ChainError> {
+        let (Some(Branch::Level(level)), Some(Block::Nonlinearity(nonlinearity))) =
+            (self.branches[block], self.plan.block(block))
+        else {
+            return Ok(());
+        };
+        let nonlinearity: Nonlinearity = *nonlinearity;
+        let Some(guard) = self.motion.guards.iter().find(|guard| guard.block == block) else { return Ok(()) };
+        let scale = &mut self.scales[block][0];
+        *scale = scale.max(guard.quantity.terms(&self.state));
+        let [input, ..] = guard.quantity.in_state(&self.state);
+        let next = match nonlinearity.edge_near(input, NOISE * *scale) {
+            None => nonlinearity.level(input, level),
+            Some(edge) => match side.or_else(|| guard.quantity.direction(&self.state, &self.motion.a)) {
+                Some(side) => nonlinearity.level_beside(edge, side == Side::Above, level),
+                None => nonlinearity.level(edge, level),
+            },
+        };
+        if next != level {
+            if side.is_none() {
+                self.count_switch()?;
+                self.note_switch();
+            }
+            self.change_branch(block, Branch::Level(next));
+        }
+        Ok(())
+    }
+
     /// Lets the source jump (or start) at the present time, and everything behind it with it.
     fn take_source_edge(&mut self) -> Result<(), ChainError> {
         self.edge = self.time;
         self.kept.push(self.time);
-        let before: Vec<(usize, f64)> = self
-            .motion
-            .backlashes
-            .iter()
-            .map(|(block, input, _)| (*block, input.in_state(&self.state)[0]))
-            .collect();
-        // A jump carries a backlash from wherever it was: as if its gap had been free at the output it had.
-        let outputs: Vec<f64> =
-            self.motion.backlashes.iter().map(|(_, _, output)| output.in_state(&self.state)[0]).collect();
-        self.plan.drive(&mut self.state, self.time);
-        for block in 0..self.branches.len() {
-            if let Some(nth) = before.iter().position(|(index, _)| *index == block)
-                && let Some((_, input, _)) = self.motion.backlashes.get(nth)
-            {
-                let jump = (input.in_state(&self.state)[0] - before[nth].1).abs();
-                let noise = NOISE * input.terms(&self.state);
-                if jump > noise {
-                    self.change_branch(block, Branch::Free);
-                    self.state[self.plan.held(block)] = outputs[nth];
-                }
-            }
-            self.settle_block(block)?;
+        let mut before = self.held();
+        if self.time == 0.0 {
+            // At rest nothing goes in or out, whatever the source is about to start from.
+            before.iter_mut().for_each(|held| (held.1, held.2) = (0.0, 0.0));
         }
-        self.note_peak(self.time, self.motion.output.in_state(&self.state)[0]);
-        Ok(())
+        self.plan.drive(&mut self.state, self.time);
+        self.settle(&before, None)
     }
 }
+
+/// A backlash or rate limit with its input and output.
+type Held = (usize, f64, f64);
 
 fn ratio(miss: f64, allowed: f64) -> f64 {
     if miss == 0.0 { 0.0 } else { miss / allowed.max(f64::MIN_POSITIVE) }

@@ -153,12 +153,21 @@ fn simulation_reference(definition: &SimulationDefinition) -> Result<SimulationR
     })
 }
 
-/// Both outputs at the instants of either.
+/// Both outputs at the instants of either: twice where one of them jumps.
 fn common_samples(without: &Run, with: &Run) -> Vec<(f64, f64, f64)> {
     let mut times: Vec<f64> = without.samples.iter().chain(&with.samples).map(|(t, _)| *t).collect();
     times.sort_by(f64::total_cmp);
     times.dedup();
-    times.into_iter().map(|t| (t, without.at(t), with.at(t))).collect()
+    let mut jumps = [without.jumps(), with.jumps()].concat();
+    jumps.sort_by(f64::total_cmp);
+    let mut samples = Vec::with_capacity(times.len() + jumps.len());
+    for t in times {
+        if jumps.binary_search_by(|jump| jump.total_cmp(&t)).is_ok() {
+            samples.push((t, without.just_before(t), with.just_before(t)));
+        }
+        samples.push((t, without.at(t), with.at(t)));
+    }
+    samples
 }
 
 fn model_error(

@@ -408,6 +408,27 @@ fn chain_words(definition: &SimulationDefinition) -> String {
         Block::Nonlinearity(Nonlinearity::Backlash { width }) => {
             format!("backlash of width {}", number(*width, 6))
         }
+        Block::Nonlinearity(Nonlinearity::Relay { amplitude, hysteresis, dead_zone }) => {
+            let of = |value: f64, what: &str| match value {
+                0.0 => String::new(),
+                value => format!(", {what} ±{}", number(value, 6)),
+            };
+            let (dead_zone, hysteresis) = (of(*dead_zone, "dead zone"), of(*hysteresis, "hysteresis"));
+            format!("relay of ±{}{dead_zone}{hysteresis}", number(*amplitude, 6))
+        }
+        Block::Nonlinearity(Nonlinearity::Quantizer { interval }) => {
+            format!("quantizer with an interval of {}", number(*interval, 6))
+        }
+        Block::Nonlinearity(Nonlinearity::RateLimit { rising, falling }) => {
+            format!("rate limit of +{} and {} per second", number(*rising, 6), number(*falling, 6))
+        }
+        Block::Nonlinearity(Nonlinearity::CoulombFriction { coulomb, viscous }) => {
+            let viscous = match *viscous {
+                0.0 => String::new(),
+                viscous => format!(" and viscous friction of {}", number(viscous, 6)),
+            };
+            format!("Coulomb friction of ±{}{viscous}", number(*coulomb, 6))
+        }
         Block::Linear { num, den } => format!("{}/{}", factor(num), factor(den)),
     });
     [source].into_iter().chain(blocks).collect::<Vec<_>>().join(" → ")

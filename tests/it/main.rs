@@ -14,5 +14,6 @@ mod marking_examples;
 mod numbers;
 mod plots;
 mod readme;
+mod switches;
 mod teacher_marks;
 mod verify;

@@ -275,6 +275,16 @@ impl Checker<'_> {
         let (data, span_s) = match &file.data {
             Some(text) => {
                 let data = self.data(text, fields);
+                if let Some(Curve::Simulation { id }) = &curve
+                    && let Some((_, block)) = names.jumping.iter().find(|(jumping, _)| jumping == id)
+                {
+                    let message = format!(
+                        "the output of `{id}` jumps where its `{block}` switches: data cannot be held against it"
+                    );
+                    let help =
+                        "leave `data` out, so that a person looks at the figure, or end the chain with a lag";
+                    self.error("lab.criterion", span(text), message, Some(help.to_owned()));
+                }
                 let span_s = self
                     .required(file.span_s.as_ref(), file, "span_s")
                     .and_then(|text| self.positive(text, "the span of the data"));

@@ -58,6 +58,8 @@ struct Names<'a> {
     /// What the output and the input of each of them are measured in; empty where the lab does not say.
     units: Vec<(&'a str, &'a str)>,
     simulations: Vec<&'a str>,
+    /// Those of them whose output jumps, with the block that makes it jump.
+    jumping: Vec<(&'a str, &'static str)>,
     questions: Vec<&'a str>,
 }
 
@@ -110,6 +112,7 @@ impl Checker<'_> {
                 })
                 .collect(),
             simulations: file.simulations.0.iter().map(|(id, _)| id.value.as_str()).collect(),
+            jumping: simulations::jumping(file),
             questions: file.questions.0.iter().map(|(id, _)| id.value.as_str()).collect(),
         };
         let outcomes = file.outcomes.0.iter().map(|(id, text)| {

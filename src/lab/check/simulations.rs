@@ -4,6 +4,28 @@ use crate::lab::file::{BlockFile, LabFile, SimulationFile, SourceFile, Text};
 use crate::nonlinear::{Block, Chain, Nonlinearity, Signal};
 use serde_yaml::Spanned;
 
+/// The simulations whose output jumps where a nonlinearity switches, with the block that makes it jump.
+pub(super) fn jumping(file: &LabFile) -> Vec<(&str, &'static str)> {
+    let jumps = |simulation: &SimulationFile| {
+        simulation.chain.value.iter().fold(None, |jumps, block| match &block.value {
+            BlockFile::Relay { .. } => Some("relay"),
+            BlockFile::Quantizer { .. } => Some("quantizer"),
+            BlockFile::CoulombFriction { .. } => Some("coulomb_friction"),
+            BlockFile::RateLimit { .. } => None,
+            BlockFile::TransferFunction { num, den } if degree(num) < degree(den) => None,
+            _ => jumps,
+        })
+    };
+    let simulations = file.simulations.0.iter();
+    simulations.filter_map(|(id, simulation)| Some((id.value.as_str(), jumps(simulation)?))).collect()
+}
+
+/// How many coefficients there are behind leading zeros.
+fn degree(coefficients: &Spanned<Vec<Text>>) -> usize {
+    let zero = |text: &&Text| text.value.trim().parse::<f64>() == Ok(0.0);
+    coefficients.value.iter().skip_while(zero).count()
+}
+
 impl Checker<'_> {
     pub(super) fn simulations(
         &mut self,
@@ -39,7 +61,7 @@ impl Checker<'_> {
         });
         if nonlinearity.is_none() {
             let message = format!("the chain of `{}` has no nonlinearity in it", id.value);
-            let help = "add `saturation`, `dead_zone` or `backlash`".to_owned();
+            let help = "add `saturation`, `dead_zone`, `backlash`, `relay`, `quantizer`, `rate_limit` or `coulomb_friction`".to_owned();
             self.error("lab.simulation", span(&file.chain), message, Some(help));
         }
         Some(SimulationDefinition {
@@ -106,6 +128,53 @@ impl Checker<'_> {
             BlockFile::Backlash { width } => self
                 .positive(width, "the width of a backlash")
                 .map(|width| Block::Nonlinearity(Nonlinearity::Backlash { width })),
+            BlockFile::Relay { amplitude, hysteresis, dead_zone } => {
+                let amplitude = self.positive(amplitude, "the amplitude of a relay");
+                let hysteresis_is = self.not_negative(hysteresis.as_ref(), "the hysteresis of a relay");
+                let dead_zone_is = self.not_negative(dead_zone.as_ref(), "the dead zone of a relay");
+                let (hysteresis_is, dead_zone_is) = (hysteresis_is?, dead_zone_is?);
+                if dead_zone_is > 0.0
+                    && hysteresis_is >= dead_zone_is
+                    && let Some(text) = hysteresis
+                {
+                    let message = format!(
+                        "the hysteresis of a relay must be below its dead zone, not {} beside {dead_zone_is}",
+                        text.value
+                    );
+                    let help = "both are half-widths: it switches on at dead_zone + hysteresis, off at dead_zone - hysteresis";
+                    self.error("lab.simulation", span(text), message, Some(help.to_owned()));
+                    return None;
+                }
+                Some(Block::Nonlinearity(Nonlinearity::Relay {
+                    amplitude: amplitude?,
+                    hysteresis: hysteresis_is,
+                    dead_zone: dead_zone_is,
+                }))
+            }
+            BlockFile::Quantizer { interval } => self
+                .positive(interval, "the interval of a quantizer")
+                .map(|interval| Block::Nonlinearity(Nonlinearity::Quantizer { interval })),
+            BlockFile::RateLimit { rising, falling } => {
+                let (rising, falling_is) =
+                    (self.positive(rising, "the rising rate of a rate limit"), self.float(falling));
+                let falling_is = falling_is?;
+                if falling_is >= 0.0 {
+                    let message =
+                        format!("the falling rate of a rate limit must be below 0, not {}", falling.value);
+                    let help = (falling_is > 0.0).then(|| format!("did you mean `-{falling_is}`?"));
+                    self.error("lab.number", span(falling), message, help);
+                    return None;
+                }
+                Some(Block::Nonlinearity(Nonlinearity::RateLimit { rising: rising?, falling: falling_is }))
+            }
+            BlockFile::CoulombFriction { coulomb, viscous } => {
+                let coulomb = self.positive(coulomb, "the Coulomb friction");
+                let viscous = self.not_negative(viscous.as_ref(), "the viscous friction");
+                Some(Block::Nonlinearity(Nonlinearity::CoulombFriction {
+                    coulomb: coulomb?,
+                    viscous: viscous?,
+                }))
+            }
             BlockFile::TransferFunction { num, den } => {
                 let (n, d) = (self.coefficients(num), self.coefficients(den));
                 let (n, d) = (n?, d?);
@@ -125,6 +194,22 @@ impl Checker<'_> {
                 Some(Block::Linear { num: n, den: d })
             }
         }
+    }
+
+    /// A number of 0 or more, 0 when it is left out; `what` names it.
+    fn not_negative(&mut self, text: Option<&Text>, what: &str) -> Option<f64> {
+        let value = self.float_or(text, 0.0)?;
+        if value >= 0.0 {
+            return Some(value);
+        }
+        let text = text?;
+        self.error(
+            "lab.number",
+            span(text),
+            format!("{what} cannot be below 0, but is {}", text.value),
+            None,
+        );
+        None
     }
 
     /// Highest power first, leading zeros dropped.

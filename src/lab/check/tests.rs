@@ -640,3 +640,108 @@ fn units_and_conventions_are_checked() {
         assert!(parse(&LAB.replace(old, new)).is_ok(), "{new}");
     }
 }
+
+#[test]
+fn blocks_that_switch_are_checked_where_they_stand() {
+    const LAB: &str = include_str!("../../../tests/it/switches.yaml");
+    #[track_caller]
+    fn check(old: &str, new: &str, mark: &str, message: &str, help: &str) {
+        assert!(LAB.contains(old), "`{old}` is not in the lab");
+        let text = LAB.replacen(old, new, 1);
+        let errors = parse(&text).unwrap_err();
+        let [finding] = errors.findings.as_slice() else { panic!("`{new}`: {:#?}", errors.findings) };
+        let found = (finding.message.as_str(), finding.help.as_deref().unwrap_or_default());
+        assert_eq!(found, (message, help), "`{new}`");
+        let start = text.find(new).unwrap() + new.find(mark).unwrap();
+        let line = text[..start].matches('\n').count() + 1;
+        let column = start - text[..start].rfind('\n').map_or(0, |end| end + 1) + 1;
+        let (place, shown) = (format!("lab.yaml:{line}:{column}"), finding.render(&errors.source, false));
+        assert!(shown.contains(&place), "{place} is not in\n{shown}");
+    }
+    check(
+        "- relay: {amplitude: 5}",
+        "- realy: {amplitude: 5}",
+        "realy",
+        "`realy` is not known here",
+        "did you mean `relay`?",
+    );
+    check(
+        "- quantizer:",
+        "- quantiser:",
+        "quantiser",
+        "`quantiser` is not known here",
+        "did you mean `quantizer`?",
+    );
+    check(
+        "- rate_limit:",
+        "- rate_limiter:",
+        "rate_limiter",
+        "`rate_limiter` is not known here",
+        "did you mean `rate_limit`?",
+    );
+    check(
+        "{amplitude: 5}",
+        "{amplitud: 5}",
+        "amplitud",
+        "there is no key `amplitud` here",
+        "did you mean `amplitude`?",
+    );
+    check("{amplitude: 5}", "{amplitude: 0}", "0", "the amplitude of a relay must be above 0, not 0", "");
+    check(
+        "hysteresis: 1, dead_zone: 4",
+        "hysteresis: -1, dead_zone: 4",
+        "-1",
+        "the hysteresis of a relay cannot be below 0, but is -1",
+        "",
+    );
+    check(
+        "hysteresis: 1, dead_zone: 4",
+        "hysteresis: 4, dead_zone: 4",
+        "4",
+        "the hysteresis of a relay must be below its dead zone, not 4 beside 4",
+        "both are half-widths: it switches on at dead_zone + hysteresis, off at dead_zone - hysteresis",
+    );
+    check(
+        "{interval: 0.5}",
+        "{interval: -0.5}",
+        "-0.5",
+        "the interval of a quantizer must be above 0, not -0.5",
+        "",
+    );
+    check("rising: 8", "rising: -8", "-8", "the rising rate of a rate limit must be above 0, not -8", "");
+    check(
+        "falling: -4",
+        "falling: 4",
+        "4",
+        "the falling rate of a rate limit must be below 0, not 4",
+        "did you mean `-4`?",
+    );
+    check("coulomb: 1", "coulomb: -1", "-1", "the Coulomb friction must be above 0, not -1", "");
+    check("viscous: 0.5", "viscous: -0.5", "-0.5", "the viscous friction cannot be below 0, but is -0.5", "");
+    // Data beside a jump.
+    let figure = |about: &str| {
+        format!(
+            "fields:\n      figure: {{kind: figure, prompt: Plot.}}\n      data: {{kind: data, prompt: Data., optional: true}}\n    \
+             criteria:\n      plot: {{title: Plot, points: 0, check: plot, field: figure, of: {about}, data: data, span_s: 1}}\n"
+        )
+    };
+    let plotted = |about: &str| {
+        let (fields, criteria) = ("    fields:\n", "    criteria:\n");
+        let new = figure(about);
+        let (new_fields, new_criteria) = new.split_once("    criteria:\n").unwrap();
+        LAB.replacen(fields, &format!("    {new_fields}"), 1).replacen(
+            criteria,
+            &format!("    criteria:\n{new_criteria}"),
+            1,
+        )
+    };
+    for (about, refused) in
+        [("staircase", true), ("relay", false), ("rate_limit", false), ("friction", false)]
+    {
+        let messages: Vec<String> = parse(&plotted(about))
+            .err()
+            .map_or(Vec::new(), |e| e.findings.into_iter().map(|f| f.message).collect());
+        let told = messages.iter().any(|m| m == "the output of `staircase` jumps where its `quantizer` switches: data cannot be held against it");
+        assert_eq!(told, refused, "{about}: {messages:#?}");
+    }
+}

@@ -87,19 +87,25 @@ pub fn characteristic_figure(definition: &SimulationDefinition, reference: &Simu
         (_, true) => (definition.input.as_str(), definition.input_unit.as_str()),
         _ => ("signal", ""),
     };
+    if let Some(figure) = own_units_figure(definition, first, last) {
+        return figure;
+    }
     let knee = match definition.nonlinearity {
-        Nonlinearity::Saturation { limit } => limit,
-        Nonlinearity::DeadZone { threshold } => threshold,
-        Nonlinearity::Backlash { width } => width,
+        Nonlinearity::Saturation { limit: knee }
+        | Nonlinearity::DeadZone { threshold: knee }
+        | Nonlinearity::Backlash { width: knee }
+        | Nonlinearity::Quantizer { interval: knee } => knee,
+        _ => 1.0,
     };
     let travelled: Vec<_> = reference.samples.iter().map(|s| (s.1, s.2)).collect();
-    let loops = last && definition.nonlinearity.has_memory();
+    let loops = last && matches!(definition.nonlinearity, Nonlinearity::Backlash { .. });
     let reach = if loops {
         travelled.iter().map(|p| p.0.abs()).fold(knee, f64::max)
     } else {
         let drive = signal_points(&definition.chain.source, definition.duration_s);
         let driven = drive.iter().map(|p| p.1.abs()).fold(0.0, f64::max);
-        (1.5 * knee).max(if first { 1.15 * driven } else { 0.0 })
+        let steps = if matches!(definition.nonlinearity, Nonlinearity::Quantizer { .. }) { 4.0 } else { 1.5 };
+        (steps * knee).max(if first { 1.15 * driven } else { 0.0 })
     };
     let points = if loops { travelled } else { definition.nonlinearity.characteristic(reach) };
     let values = |part: fn(&(f64, f64)) -> f64| extent(points.iter().map(part)).unwrap_or((-1.0, 1.0));
@@ -127,8 +133,89 @@ pub fn characteristic_figure(definition: &SimulationDefinition, reference: &Simu
             "A loop: what comes out trails by half the gap of {} and stands still while the input crosses the gap.",
             quantity(width, 4, unit)
         ),
+        Nonlinearity::Quantizer { interval } => format!(
+            "A staircase: what comes out is the nearest multiple of {}, so that it is off by half of that at most.",
+            quantity(interval, 4, unit)
+        ),
+        _ => String::new(),
     };
     figure
+}
+
+/// The picture of a nonlinearity whose output is another quantity than its input, or that is about rates.
+fn own_units_figure(definition: &SimulationDefinition, first: bool, last: bool) -> Option<Figure> {
+    let drive = signal_points(&definition.chain.source, definition.duration_s);
+    let driven = drive.iter().map(|p| p.1.abs()).fold(0.0, f64::max);
+    let (input, input_unit) =
+        if first { (definition.input.as_str(), definition.input_unit.as_str()) } else { ("signal", "") };
+    let (output, output_unit) =
+        if last { (definition.output.as_str(), definition.output_unit.as_str()) } else { ("signal", "") };
+    let seen = if first { 1.15 * driven } else { 0.0 };
+    let (reach, summary) = match definition.nonlinearity {
+        Nonlinearity::Relay { amplitude, hysteresis, dead_zone } => {
+            let on = dead_zone + hysteresis;
+            let when = match (dead_zone > 0.0, hysteresis > 0.0) {
+                (false, false) => "with the sign of the input; 0 where that is 0".to_owned(),
+                (false, true) => format!(
+                    "a loop: it goes over to the other side only where the input is {} beyond 0",
+                    quantity(hysteresis, 4, input_unit)
+                ),
+                (true, false) => {
+                    format!("0 while the input stays within ±{}", quantity(dead_zone, 4, input_unit))
+                }
+                (true, true) => format!(
+                    "on where the input goes beyond ±{}, off where it comes back to ±{}",
+                    quantity(on, 4, input_unit),
+                    quantity(dead_zone - hysteresis, 4, input_unit)
+                ),
+            };
+            let words = format!("What comes out is ±{}, {when}.", quantity(amplitude, 4, output_unit));
+            ((2.0 * on).max(seen), words)
+        }
+        Nonlinearity::CoulombFriction { coulomb, viscous } => {
+            let grows = if viscous > 0.0 { ", and grows with the input from there" } else { "" };
+            let words = format!(
+                "What comes out has the sign of the input: it jumps between ±{} where the input passes 0{grows}.",
+                quantity(coulomb, 4, output_unit)
+            );
+            (
+                if viscous > 0.0 { (3.0 * coulomb / viscous).min(1e3 * seen.max(1.0)) } else { 0.0 }
+                    .max(seen),
+                words,
+            )
+        }
+        Nonlinearity::RateLimit { rising, falling } => {
+            let words = format!(
+                "What comes out follows what goes in, but rises by no more than {} and falls by no more than {} in a second.",
+                quantity(rising, 4, output_unit),
+                quantity(-falling, 4, output_unit)
+            );
+            (1.5 * rising.max(-falling), words)
+        }
+        _ => return None,
+    };
+    let kind = definition.nonlinearity.kind_name();
+    let rates = matches!(definition.nonlinearity, Nonlinearity::RateLimit { .. });
+    let name = |signal: &str, unit: &str, way: &str| match (rates, unit) {
+        (false, _) => (format!("{signal} {way}"), unit.to_owned()),
+        (true, "") => (format!("rate of the {signal} {way}"), "1/s".to_owned()),
+        (true, _) => (format!("rate of the {signal} {way}"), format!("({unit})/s")),
+    };
+    let points = definition.nonlinearity.characteristic(if reach > 0.0 { reach } else { 1.0 });
+    let values = |part: fn(&(f64, f64)) -> f64| extent(points.iter().map(part)).unwrap_or((-1.0, 1.0));
+    let (xs, ys) = (values(|p| p.0), values(|p| p.1));
+    let ((left, right), (low, high)) = (padded(xs.0, xs.1, 0.06), padded(ys.0, ys.1, 0.1));
+    let ((x, x_unit), (y, y_unit)) =
+        (name(input, input_unit, "going in"), name(output, output_unit, "coming out"));
+    let mut figure = Figure::new(
+        format!("{}: output over input", capitalized(kind)),
+        Axis::new(x, &x_unit, left, right),
+        Axis::new(y, &y_unit, low, high),
+    );
+    figure.zero_lines = true;
+    figure.series.push(Series { name: kind.to_owned(), look: Look::Reference, points });
+    figure.summary = summary;
+    Some(figure)
 }
 
 /// A factor 1, 2 or 5 times a power of ten that brings `drive` near `shown`, and how to write it.
