@@ -342,6 +342,28 @@ fn jumps_go_through_what_stands_behind() {
         &[PI, 2.0 * PI],
         &[(1.0, 3.0), (4.0, -3.0)],
     );
+    // Both switch where 8·sin t comes back to 4: the force goes from 2 to exactly 0, and never to -2 on the way. The gap lets
+    // go of 1, and of the 1 it then holds only 0 - 1.
+    let after_a_zone = [
+        block(DeadZone { threshold: 4.0 }),
+        block(CoulombFriction { coulomb: 2.0, viscous: 0.25 }),
+        block(Backlash { width: 2.0 }),
+    ];
+    check(
+        "two at one instant",
+        &chain(SINE, after_a_zone),
+        6.0,
+        &[SIXTH, PI / 2.0, 5.0 * SIXTH, 7.0 * SIXTH, 1.5 * PI, 11.0 * SIXTH],
+        &[
+            (0.1, 0.0),
+            (PI / 2.0, 2.0),
+            (2.0, 2.0),
+            (3.0, 1.0),
+            (4.0, 2.0 * 4f64.sin()),
+            (5.0, -2.0),
+            (6.0, -1.0),
+        ],
+    );
     // (s + 2)/(s + 1) lets the jump through: u = 2 - e^-t, at 1.5 when e^-t = 1/2.
     check(
         "lead between",

@@ -223,7 +223,9 @@ impl Simulation<'_> {
                         let [value, rate, _] = guard.quantity.in_state(&self.state_after(from, offset));
                         (-guard.excess(side, value), -sign * rate)
                     });
-                    if first.as_ref().is_none_or(|event| offset < event.offset) {
+                    // Of two at one instant the one farther up the chain decides what the other gets to see.
+                    let instant = NOISE * (self.time + h);
+                    if first.as_ref().is_none_or(|event| offset + instant < event.offset) {
                         let state = self.state_after(from, offset);
                         first = Some(Event { guard: index, side, quarter, offset, state });
                     }
