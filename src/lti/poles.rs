@@ -36,7 +36,7 @@ const DEGREE_LIMIT: usize = 60;
 /// by falling real part, then by rising |im|. A root on an axis has a part that is exactly zero.
 /// Accuracy: each part to the last bit or two, whatever the multiplicity or how close roots lie; `error_bound` is
 /// proved in exact arithmetic and covers the rounding to `f64`.
-/// Errors: [`RootError`]; roots that agree in hundreds of digits do not settle.
+/// Errors: [`RootError`]; roots that agree in a thousand digits or more do not settle.
 /// Source: Yun's square-free split for the multiplicities, then certified Ehrlich–Aberth on each factor.
 pub fn roots(p: &Polynomial) -> Result<Vec<Pole>, RootError> {
     let mut poles = Vec::new();
