@@ -12,7 +12,7 @@ use crate::source::Span;
 use std::cmp::{Ordering, Reverse};
 use std::collections::BTreeSet;
 
-/// What may have gone wrong on the way to a wrong transfer function. It gives no marks and takes none.
+/// What may have gone wrong on the way to a wrong transfer function. It takes no marks; the same again at a later one is spared.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct Diagnosis {
     /// The likeliest first; each explains the answer by itself. Empty when nothing simple does.

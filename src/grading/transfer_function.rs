@@ -290,12 +290,13 @@ impl Reading<'_> {
             return (expected, reason);
         }
         let scale = if self.scaled.factor == Rational::ONE { "" } else { " in your scale" };
+        // What else would have been right is of no use to who has it right.
+        let others = if code == "right" { String::new() } else { also(accepted) };
         let expected = format!(
-            "{}{scale}{}, {}.{}",
+            "{}{scale}{}, each coefficient within {}.{others}",
             text(&polynomial.scale(&self.scaled.factor)),
             self.accepted.with(),
-            up_to_a_factor(tolerance),
-            also(accepted)
+            percent(&tolerance.relative)
         );
         let wrong: Vec<_> = self
             .scaled
