@@ -67,7 +67,9 @@ pub fn read_capped(path: &Path) -> io::Result<Vec<u8>> {
 pub fn grade_class(job: &ClassJob<'_>, progress: &dyn Fn(usize)) -> Result<Outcome, ClassError> {
     let reports = job.out.join("reports");
     std::fs::create_dir_all(&reports).map_err(|error| ClassError::Write { path: reports, error })?;
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(job.threads).stack_size(STACK_BYTES).build()?;
+    // More threads than submissions marked at a time would only wait.
+    let threads = job.threads.min(GROUP);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK_BYTES).build()?;
 
     let results = NewFile::create(job.out.join("results.jsonl"))?;
     let mut lines = BufWriter::new(results.file.as_file());

@@ -37,14 +37,25 @@ impl<'a, T: ?Sized> Accepted<'a, T> {
 
 /// What is said after the expected answer when other parameter values are accepted too.
 pub(super) fn also<T: ?Sized>(accepted: &[Accepted<'_, T>]) -> String {
-    let others: Vec<_> = accepted
-        .iter()
-        .filter(|one| !one.differs.is_empty())
-        .map(|one| one.with().trim_start_matches(" with ").to_owned())
-        .collect();
+    let mut others = Vec::new();
+    let mut before = None;
+    for differs in accepted.iter().map(|one| one.differs).filter(|differs| !differs.is_empty()) {
+        // Several values of one parameter are named once: `g = 9.8, 9.80665 or 10`.
+        let only = match differs {
+            [(name, ..)] => Some(name),
+            _ => None,
+        };
+        let again = only.is_some() && only == before;
+        let value = |(name, text, _): &(String, String, Rational)| match again {
+            true => text.clone(),
+            false => format!("{name} = {text}"),
+        };
+        others.push(differs.iter().map(value).collect::<Vec<_>>().join(" and "));
+        before = only;
+    }
     match others.as_slice() {
         [] => String::new(),
-        others => format!(" What follows from {} is accepted too.", listed(others, "or")),
+        others => format!(" Also right with {}.", listed(others, "or")),
     }
 }
 
@@ -83,4 +94,30 @@ pub(super) fn coefficient_tolerance(lab: &LabDefinition, of: &SystemRef) -> Rati
         })
         .max()
         .unwrap_or(Rational::ZERO)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_of_one_parameter_are_named_once() {
+        for (sets, words) in [
+            ("", ""),
+            ("g = 9.8", " Also right with g = 9.8."),
+            ("g = 9.8; g = 9.80665; g = 10", " Also right with g = 9.8, 9.80665 or 10."),
+            ("g = 9.8; m = 1; m = 2", " Also right with g = 9.8, m = 1 or 2."),
+            ("g = 9.8; g = 9.8, m = 1; g = 10", " Also right with g = 9.8, g = 9.8 and m = 1 or g = 10."),
+        ] {
+            let differs: Vec<Vec<_>> = sets
+                .split("; ")
+                .map(|set| {
+                    let parts = set.split(", ").filter_map(|part| part.split_once(" = "));
+                    parts.map(|(name, text)| (name.to_owned(), text.to_owned(), Rational::ONE)).collect()
+                })
+                .collect();
+            let accepted: Vec<_> = differs.iter().map(|differs| Accepted { differs, what: &() }).collect();
+            assert_eq!(also(&accepted), words, "{sets}");
+        }
+    }
 }

@@ -213,9 +213,9 @@ impl Follower<'_> {
             Some(question) => format!("{name}, for a mistake that was charged in {question}"),
         };
         let mut reason = if own.earned == points {
-            format!("It does not agree with the reference, but it follows rightly from {charged}.")
+            format!("It follows from {charged}.")
         } else {
-            format!("It does not agree with the reference. Held against {charged}: {}", own.evidence.reason)
+            format!("Held against {charged}: {}", own.evidence.reason)
         };
         if self.criterion.follow_through < Rational::ONE {
             let part = percent(&self.criterion.follow_through);

@@ -19,7 +19,7 @@ pub(super) fn expected(accepted: &[Accepted<'_, Stability>]) -> String {
     };
     let others =
         if accepted.iter().all(|one| one.what == main.what) { String::new() } else { also(accepted) };
-    format!("{}: {why}.{others}", stability_name(*main.what))
+    format!("{}, since {why}.{others}", stability_name(*main.what))
 }
 
 /// The word against the stability of the transfer function; `whole` is that of the whole state.

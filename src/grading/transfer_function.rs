@@ -242,7 +242,7 @@ impl Reading<'_> {
     fn why_structure(&self, code: &str) -> String {
         let yours = orders(&self.short);
         match code {
-            "right" => format!("Yours has {yours}, as it should."),
+            "right" => "Both degrees are right, and so is what lies at the origin.".to_owned(),
             "structure.not_cancelled" => format!(
                 "Your function is of the right form once the common factor {} is cancelled, but it was left in the numerator \
                  and in the denominator. Half the points are for cancelling it.",
@@ -290,8 +290,9 @@ impl Reading<'_> {
             return (expected, reason);
         }
         let scale = if self.scaled.factor == Rational::ONE { "" } else { " in your scale" };
-        // What else would have been right is of no use to who has it right.
-        let others = if code == "right" { String::new() } else { also(accepted) };
+        // What else would have been right is of no use to who has it right, or has chosen.
+        let chosen = code == "right" || !self.accepted.differs.is_empty();
+        let others = if chosen { String::new() } else { also(accepted) };
         let expected = format!(
             "{}{scale}{}, each coefficient within {}.{others}",
             text(&polynomial.scale(&self.scaled.factor)),

@@ -586,7 +586,7 @@ mod tests {
         ] {
             let mark = judged(&[&main, &other], &asked(FeatureKind::InitialValue), text, None);
             assert_eq!((mark.code, mark.evidence.reason.as_str()), (code, reason), "{text}");
-            assert!(mark.evidence.expected.ends_with("What follows from g = 9.8 is accepted too."));
+            assert!(mark.evidence.expected.ends_with("Also right with g = 9.8."));
         }
     }
 

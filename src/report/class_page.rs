@@ -10,7 +10,7 @@ use super::view::{BarView, FigureView, provisional_words};
 use crate::lab::Points;
 use crate::source::sanitize;
 use serde::Serialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 #[derive(Serialize)]
 pub struct ClassPage {
@@ -92,6 +92,7 @@ pub fn page(kit: &ReportKit, summary: &ClassSummary) -> ClassPage {
     let possible = lab.questions.iter().map(|q| q.points).sum::<Points>();
     let figure = distribution(&totals, possible.as_f64());
     let review = review(kit, &summary.review);
+    let criteria: BTreeSet<&str> = summary.review.iter().map(|entry| entry.item.as_str()).collect();
     ClassPage {
         page_title: format!("Class – {}", lab.title),
         course: lab.course.clone(),
@@ -104,7 +105,7 @@ pub fn page(kit: &ReportKit, summary: &ClassSummary) -> ClassPage {
             1 => "One mark waits for a person.".to_owned(),
             n => format!(
                 "{n} marks on {} wait for a person.",
-                counted(review.len(), "criterion").replace("criterions", "criteria")
+                counted(criteria.len(), "criterion").replace("criterions", "criteria")
             ),
         },
         alike_html: if review.iter().any(|group| group.groups.iter().any(|like| !like.id.is_empty())) {
@@ -152,7 +153,7 @@ fn mean(kit: &ReportKit, mean: &QuestionMean) -> MeanView {
     }
 }
 
-/// Entries of the same criterion and the same reason together, in the order of their first.
+/// Entries of the same criterion and the same reason together, in the lab's order.
 fn review(kit: &ReportKit, entries: &[ReviewEntry]) -> Vec<ReviewGroup> {
     let mut groups: Vec<(&ReviewEntry, Vec<&ReviewEntry>)> = Vec::new();
     let mut places = BTreeMap::new();
@@ -163,6 +164,9 @@ fn review(kit: &ReportKit, entries: &[ReviewEntry]) -> Vec<ReviewGroup> {
         }
         groups[place].1.push(entry);
     }
+    let criteria: Vec<&str> =
+        kit.lab.questions.iter().flat_map(|q| &q.criteria).map(|criterion| criterion.id.as_str()).collect();
+    groups.sort_by_cached_key(|(first, _)| criteria.iter().position(|id| *id == first.item));
     groups
         .into_iter()
         .map(|(first, entries)| {

@@ -136,6 +136,14 @@ fn nothing_lost_is_a_single_line() {
 }
 
 #[test]
+fn what_was_not_written_at_all_is_a_single_line() {
+    let submission = read("answers: {}");
+    let html = page(&submission, &graded(&submission));
+    check_has(&html, &["Nothing was written: all 45 points."]);
+    assert!(!html.contains("class=\"ledger\""));
+}
+
+#[test]
 fn a_ledger_that_does_not_add_up_is_not_shown() {
     let (submission, mut card) = followed("It runs away.", Guard::Passed);
     card.ledger.lost.pop();

@@ -9,8 +9,8 @@ use serde::Serialize;
 
 #[derive(Serialize)]
 pub struct LedgerView {
-    /// Instead of a table, when nothing was lost.
-    pub nothing_lost: Option<String>,
+    /// Instead of a table, when nothing was lost, or nothing was written that can be marked.
+    pub in_a_word: Option<String>,
     pub rows: Vec<LossRow>,
     pub lost: String,
     /// `45 − 25.5 earned`
@@ -75,13 +75,29 @@ pub fn view(lab: &LabDefinition, scorecard: &Scorecard) -> Option<LedgerView> {
         return None;
     }
     Some(LedgerView {
-        nothing_lost: (total.earned == total.possible)
-            .then(|| format!("Nowhere: all {} were earned.", counted(total.possible, "point"))),
+        in_a_word: in_a_word(scorecard),
         lost: lost.to_string(),
         sum: format!("{} possible − {} earned", total.possible, total.earned),
         rows: rows.into_iter().map(|(row, _)| row).collect(),
         spared: spared(lab, scorecard),
     })
+}
+
+fn in_a_word(scorecard: &Scorecard) -> Option<String> {
+    let total = &scorecard.total;
+    let all = counted(total.possible, "point");
+    let only = |cause: Cause| scorecard.ledger.lost.iter().all(|loss| loss.cause == cause);
+    if total.earned == total.possible {
+        Some(format!("Nowhere: all {all} were earned."))
+    } else if total.earned > Points::ZERO {
+        None
+    } else if only(Cause::Blank) {
+        Some(format!("Nothing was written: all {all}."))
+    } else if only(Cause::Unreadable) {
+        Some(format!("Nothing could be read: all {all}."))
+    } else {
+        None
+    }
 }
 
 fn row(place: &Place<'_>, points: Points, why: Why) -> LossRow {

@@ -3,7 +3,7 @@
 use super::*;
 use crate::algebra::{Polynomial, parse_decimal};
 use crate::grading::{Catalogue, Scorecard, grade};
-use crate::lab::{self, LabDefinition, Points};
+use crate::lab::{self, Criterion, LabDefinition, Points};
 use crate::lti::{InputKind, Response, TransferFunction};
 use crate::reference::Reference;
 use crate::report::figures::{PreparedResponse, StudentCurves};
@@ -308,6 +308,32 @@ fn three_thousand_submissions_make_a_lean_class_page() {
     assert!(html.contains("3000 marks on 1 criterion wait for a person"));
     assert!(html.contains("<strong>1000 answers</strong>, 0.5 of 1 each, with “swings”"));
     assert!(html.contains("<code class=\"muted\">said-00000001</code>"));
+}
+
+#[test]
+fn criteria_stand_on_the_class_page_in_the_order_of_the_lab_whoever_comes_first() {
+    let [first, second] = [0, 1].map(|i| &FIXTURE.lab.questions[0].criteria[i]);
+    let entry = |criterion: &Criterion, why: &str| ReviewEntry {
+        student: "A. Student".into(),
+        item: criterion.id.clone(),
+        title: criterion.title.clone(),
+        link: "reports/a.html".into(),
+        why: why.into(),
+        earned: Points(50),
+        possible: Points(100),
+        alike: None,
+        found: String::new(),
+        conflicts: Vec::new(),
+        example: String::new(),
+    };
+    let review = vec![entry(second, "a picture"), entry(first, "a picture"), entry(second, "words")];
+    let html = FIXTURE.kit.class_page(&ClassSummary { rows: Vec::new(), questions: Vec::new(), review });
+    assert!(html.contains("3 marks on 2 criteria wait for a person"), "not a criterion for each reason");
+    let places = [(first, "a picture"), (second, "a picture"), (second, "words")].map(|(criterion, why)| {
+        let group = format!(" – {}</strong>: 1 mark. <span class=\"muted\">{why}<", criterion.title);
+        html.find(&group).unwrap_or_else(|| panic!("no {group}"))
+    });
+    assert!(places.is_sorted(), "{places:?}");
 }
 
 #[test]
