@@ -1,5 +1,6 @@
 use super::outcome::{Failure, THEIRS, colour_on_stdout, load_lab, write_output};
 use crate::lab::LabDefinition;
+use crate::report::numbers::counted;
 use crate::source::{Severity, sanitize};
 use crate::submission::{Folder, Submission, read, self_check};
 use std::path::{Path, PathBuf};
@@ -10,7 +11,7 @@ use std::process::ExitCode;
 /// The right answers are not computed and cannot be seen here.
 #[derive(clap::Args)]
 #[command(
-    after_long_help = "Examples:\n  polemark check answers.yaml\n  polemark check answers.yaml --lab labs/mine/lab.yaml\n\nExit code: 0 when all that is there can be read and agrees with itself (blanks included), 1 when not."
+    after_long_help = "Examples:\n  polemark check answers.yaml\n  polemark check answers.yaml --lab labs/mine/lab.yaml\n\nExit code: 0 when there is nothing to look at (blanks are nothing), 1 when something cannot be read, does not\nagree with itself, or is read with a warning."
 )]
 pub struct Arguments {
     /// Answer files.
@@ -61,8 +62,8 @@ fn check_file(lab: &LabDefinition, path: &Path) -> Result<(String, bool), Failur
     let wrong = others.iter().filter(|f| f.severity != Severity::Note).count();
     let name = sanitize(&path.to_string_lossy());
     let counts = format!(
-        "{} answers read, {} to look at, {} still blank",
-        submission.answers.values().filter(|a| a.value.is_ok()).count(),
+        "{} read, {} to look at, {} still blank",
+        counted(submission.answers.values().filter(|a| a.value.is_ok()).count(), "answer"),
         wrong,
         missing.len()
     );
