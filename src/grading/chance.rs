@@ -59,17 +59,8 @@ fn agreeing(typed: &Typed, row: &Row, pivot: usize) -> Places {
 #[cfg(test)]
 mod tests {
     use super::super::digits::Written;
+    use super::super::likeness::tests::function;
     use super::*;
-    use crate::algebra::{Polynomial, parse_decimal};
-    use crate::lti::TransferFunction;
-
-    fn function(text: &str) -> TransferFunction {
-        let polynomial = |text: &str| {
-            Polynomial::new(text.split_whitespace().map(|c| parse_decimal(c).unwrap()).collect())
-        };
-        let (num, den) = text.split_once('/').unwrap();
-        TransferFunction::new(polynomial(num), polynomial(den)).unwrap()
-    }
 
     fn typed(text: &str) -> Typed {
         Typed::new(&function(text), &Written::default()).unwrap()

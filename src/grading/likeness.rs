@@ -224,11 +224,12 @@ fn interval(value: f64, width: f64, expected: f64) -> Option<(f64, f64)> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::algebra::{Polynomial, parse_decimal};
 
-    fn function(text: &str) -> TransferFunction {
+    /// `0.06 0 / 0.0132 0.0024`: coefficients, highest power first.
+    pub fn function(text: &str) -> TransferFunction {
         let polynomial = |text: &str| {
             Polynomial::new(text.split_whitespace().map(|c| parse_decimal(c).unwrap()).collect())
         };

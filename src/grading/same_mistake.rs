@@ -30,44 +30,30 @@ pub(super) fn spare(lab: &LabDefinition, grader: &Grader<'_>, earned: Earned<'_>
                 .filter(of)
                 .find_map(|earlier| Some((earlier.question, earlier.root(mistake, marks, earned)?)))
         };
-        let charged = [Mistake::NotCancelled, Mistake::Explained].map(|one| (one, charged_by(one)));
-        let again = match &charged[1].1 {
+        let not_cancelled = charged_by(Mistake::NotCancelled);
+        let explained = charged_by(Mistake::Explained);
+        let again = match explained {
             Some(_) => None,
             None => earlier.iter().find_map(|earlier| {
                 let root = earlier.root(Mistake::Explained, marks, earned)?;
                 Some((earlier.question, root, made_again(grader, later, earlier, marks)?))
             }),
         };
-        for (place_in_function, (index, criterion)) in later.criteria.iter().enumerate() {
+        for (place, (index, criterion)) in later.criteria.iter().enumerate() {
             let Some(mark) = marks.get_mut(later.place).and_then(|marks| marks.get_mut(*index)) else {
                 continue;
             };
-            let lost = matches!(mark.verdict, Verdict::Wrong | Verdict::Partly);
-            let by = charged.iter().find(|(mistake, _)| *mistake == Mistake::of(mark));
-            let back = match (by, &again) {
-                _ if !lost => None,
-                (Some((_, Some((question, root)))), _) => {
-                    let why = format!(
-                        "{} It is the same mistake as in {}, where it was charged.",
-                        mark.evidence.reason,
-                        question_name(question)
-                    );
-                    Some(Back { root, without: criterion.points, why })
-                }
-                (_, Some((question, root, without))) if Mistake::of(mark) == Mistake::Explained => {
-                    without.get(place_in_function).map(|one| {
-                        let rest = if one.earned == criterion.points {
-                            String::new()
-                        } else {
-                            format!(" Beside it: {}", one.evidence.reason)
-                        };
-                        let why = format!(
-                            "{} The mistake of {} is in it again, where it was charged.{rest}",
-                            mark.evidence.reason,
-                            question_name(question)
-                        );
-                        Back { root, without: one.earned, why }
-                    })
+            if !matches!(mark.verdict, Verdict::Wrong | Verdict::Partly) {
+                continue;
+            }
+            let charged = match Mistake::of(mark) {
+                Mistake::NotCancelled => &not_cancelled,
+                Mistake::Explained => &explained,
+            };
+            let back = match (charged, &again) {
+                (Some((question, root)), _) => Some(Back::all(criterion, mark, question, root)),
+                (None, Some((question, root, without))) if Mistake::of(mark) == Mistake::Explained => {
+                    without.get(place).map(|without| Back::but_for(without, criterion, mark, question, root))
                 }
                 _ => None,
             };
@@ -180,6 +166,37 @@ struct Back<'a> {
     /// What the criterion earns without it.
     without: Points,
     why: String,
+}
+
+impl<'a> Back<'a> {
+    /// Nothing else was wrong.
+    fn all(criterion: &Criterion, base: &Mark, question: &Question, root: &'a str) -> Self {
+        let why = format!(
+            "{} It is the same mistake as in {}, where it was charged.",
+            base.evidence.reason,
+            question_name(question)
+        );
+        Self { root, without: criterion.points, why }
+    }
+
+    /// `without`: the mark by what the earlier mistake alone leads to.
+    fn but_for(
+        without: &Mark,
+        criterion: &Criterion,
+        base: &Mark,
+        question: &Question,
+        root: &'a str,
+    ) -> Self {
+        let mut why = format!(
+            "{} The mistake of {} is in it again, where it was charged.",
+            base.evidence.reason,
+            question_name(question)
+        );
+        if without.earned < criterion.points {
+            why.push_str(&format!(" Beside it: {}", without.evidence.reason));
+        }
+        Self { root, without: without.earned, why }
+    }
 }
 
 fn spared(criterion: &Criterion, base: &Mark, part: &Rational, back: Back<'_>) -> Mark {
