@@ -5,7 +5,7 @@
 //!     │
 //!   algebra                  exact rationals, polynomials, expressions
 //!     │           source     text with places in it: spans, findings, a YAML tree
-//!   lti   nonlinear  │       transfer functions, poles, responses · saturation, dead zone, backlash
+//!   lti   nonlinear  │       transfer functions, poles, responses · saturation, relay, backlash …
 //!     └──┬──┘      prose     what English sentences say: phrases, denials, claims about a response
 //!     model          │       equations → equilibrium → linearization
 //!        │      submission   what was answered
