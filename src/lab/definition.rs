@@ -84,7 +84,8 @@ pub struct OperatingPointDefinition {
     pub input_unit: String,
     pub output: String,
     pub output_unit: String,
-    pub comparison: Comparison,
+    /// How the linear model is held against the nonlinear equations; `None` where it is not.
+    pub comparison: Option<Comparison>,
     pub span: Span,
 }
 

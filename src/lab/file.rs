@@ -152,8 +152,8 @@ pub(super) struct OperatingPointFile {
     pub input: Text,
     /// The coordinate that is watched.
     pub output: Text,
-    /// How the linear model is held against the nonlinear equations.
-    pub comparison: ComparisonFile,
+    /// How the linear model is held against the nonlinear equations. Default: it is not.
+    pub comparison: Option<ComparisonFile>,
 }
 
 /// Linear against nonlinear, after an impulse at the input.

@@ -1,4 +1,5 @@
 use super::names::suggestion;
+use super::shelf::SHELF;
 use super::{LabDefinition, LoadError};
 use crate::source::{self, SourceText, sanitize};
 use std::path::Path;
@@ -6,18 +7,16 @@ use std::path::Path;
 /// The lab that is meant when none is named.
 pub const DEFAULT: &str = "ee361-lab3";
 
-const EMBEDDED: &[(&str, &str)] = &[("ee361-lab3", include_str!("../../labs/ee361-lab3/lab.yaml"))];
-
 /// Labs inside the program: (id, text of the lab file).
 pub fn embedded() -> &'static [(&'static str, &'static str)] {
-    EMBEDDED
+    SHELF
 }
 
 /// The lab of an embedded name, of a lab file, or of a folder that holds `lab.yaml`.
 ///
 /// Anything with a path separator or an extension is a path; an embedded name wins over a folder of that name.
 pub fn load(name_or_path: &str) -> Result<LabDefinition, LoadError> {
-    if let Some((id, text)) = EMBEDDED.iter().find(|(id, _)| *id == name_or_path) {
+    if let Some((id, text)) = SHELF.iter().find(|(id, _)| *id == name_or_path) {
         return Ok(LabDefinition::parse(SourceText::new(format!("{id}/lab.yaml"), *text))?);
     }
     let given = Path::new(name_or_path);
@@ -34,7 +33,7 @@ pub fn load(name_or_path: &str) -> Result<LabDefinition, LoadError> {
 }
 
 fn unknown(name: &str) -> LoadError {
-    let ids: Vec<&str> = EMBEDDED.iter().map(|(id, _)| *id).collect();
+    let ids: Vec<&str> = SHELF.iter().map(|(id, _)| *id).collect();
     LoadError::Unknown { name: sanitize(name), help: suggestion(name, &ids) }
 }
 
@@ -64,7 +63,7 @@ mod tests {
     fn a_path_is_a_file_or_a_folder_with_a_lab_in_it() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("lab.yaml");
-        std::fs::write(&file, EMBEDDED[0].1).unwrap();
+        std::fs::write(&file, SHELF[0].1).unwrap();
         for path in [folder.path(), &file] {
             assert_eq!(load(path.to_str().unwrap()).unwrap().id, "ee361-lab3");
         }

@@ -12,6 +12,7 @@ mod names;
 mod points;
 mod read;
 mod sheet;
+mod shelf;
 mod template;
 
 pub use definition::*;

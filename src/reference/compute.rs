@@ -90,15 +90,11 @@ fn operating_point_reference(
         .iter()
         .map(|choice| linear_reference(definition, point, choice))
         .collect::<Result<Vec<_>, _>>()?;
-    let comparison = compare(
-        &definition.model,
-        &choices[0].values,
-        &point.at,
-        &point.input,
-        &point.output,
-        &point.comparison,
-    )
-    .map_err(|error| model_error(definition, point, error))?;
+    let compared = |comparison| {
+        compare(&definition.model, &choices[0].values, &point.at, &point.input, &point.output, comparison)
+            .map_err(|error| model_error(definition, point, error))
+    };
+    let comparison = point.comparison.as_ref().map(compared).transpose()?;
     Ok(OperatingPointReference {
         id: point.id.clone(),
         title: point.title.clone(),

@@ -95,8 +95,8 @@ pub fn values_at(reference: &Reference, path: &str) -> Option<Vec<ExpectedValue>
         return linear_values(point.accepted.get(index.parse::<usize>().ok()?)?, rest);
     }
     match rest {
-        "comparison.parting_push" => numbers([point.comparison.parting_push?]),
-        "comparison.parting_amplitude" => numbers([point.comparison.parting_amplitude?]),
+        "comparison.parting_push" => numbers([point.comparison.as_ref()?.parting_push?]),
+        "comparison.parting_amplitude" => numbers([point.comparison.as_ref()?.parting_amplitude?]),
         "comparison.end_linear" => ends(point, |(_, linear, _)| *linear),
         "comparison.end_nonlinear" => ends(point, |(_, _, nonlinear)| *nonlinear),
         "equilibrium" => numbers(point.equilibrium.iter().map(|(_, value)| *value)),
@@ -106,7 +106,8 @@ pub fn values_at(reference: &Reference, path: &str) -> Option<Vec<ExpectedValue>
 
 /// One value a push: where the output is at the end of the comparison.
 fn ends(point: &OperatingPointReference, of: impl Fn(&(f64, f64, f64)) -> f64) -> Option<Vec<ExpectedValue>> {
-    let ends: Option<Vec<f64>> = point.comparison.runs.iter().map(|run| run.1.last().map(&of)).collect();
+    let ends: Option<Vec<f64>> =
+        point.comparison.as_ref()?.runs.iter().map(|run| run.1.last().map(&of)).collect();
     numbers(ends?)
 }
 

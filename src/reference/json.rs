@@ -152,8 +152,8 @@ fn operating_point_view(point: &OperatingPointReference) -> OperatingPointView<'
                 poles: pole_views(&linear.poles),
             })
             .collect(),
-        parting_push: point.comparison.parting_push,
-        parting_amplitude: point.comparison.parting_amplitude,
+        parting_push: point.comparison.as_ref().and_then(|c| c.parting_push),
+        parting_amplitude: point.comparison.as_ref().and_then(|c| c.parting_amplitude),
     }
 }
 

@@ -114,9 +114,10 @@ fn tangent_route(
     at: &OperatingPointDefinition,
     point: &OperatingPointReference,
 ) -> Option<Agreement> {
-    let parting = point.comparison.parting_push?;
+    let (drawn, found) = (at.comparison.as_ref()?, point.comparison.as_ref()?);
+    let parting = found.parting_push?;
     let pushes = vec![parting / 100.0, parting / 1000.0];
-    let small = Comparison { pushes, ..at.comparison.clone() };
+    let small = Comparison { pushes, ..drawn.clone() };
     let digits =
         compare(model, parameters, &at.at, &at.input, &at.output, &small).map_or(0.0, |comparison| {
             let departure = |run: &(f64, Vec<(f64, f64, f64)>)| {

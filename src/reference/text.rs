@@ -80,7 +80,8 @@ fn operating_point(text: &mut String, model: &str, point: &OperatingPointReferen
     );
     response(text, "impulse response", &main.impulse);
     response(text, "step response", &main.step);
-    if let (Some(push), Some(amplitude)) = (point.comparison.parting_push, point.comparison.parting_amplitude)
+    if let Some(comparison) = &point.comparison
+        && let (Some(push), Some(amplitude)) = (comparison.parting_push, comparison.parting_amplitude)
     {
         line(
             text,

@@ -33,7 +33,8 @@ pub struct OperatingPointReference {
     pub output_unit: String,
     /// `[0]` follows the lab's own parameter values; the rest, accepted alternatives.
     pub accepted: Vec<LinearReference>,
-    pub comparison: ComparisonRun,
+    /// The linear model beside the nonlinear equations; `None` where they are not compared.
+    pub comparison: Option<ComparisonRun>,
 }
 
 impl OperatingPointReference {

@@ -190,7 +190,7 @@ fn point(kit: &ReportKit, system: &SystemRef, point: &OperatingPointReference) -
     let space = &linearization.state_space;
     let id = |kind: &str| anchor("figure", &format!("{system}.{kind}"));
     let (impulse, step) = (&main.impulse.features, &main.step.features);
-    let comparisons = point.comparison.runs.iter().enumerate();
+    let comparisons = point.comparison.iter().flat_map(|comparison| &comparison.runs).enumerate();
     PointView {
         anchor: anchor("point", &system.to_string()),
         title: point.title.clone(),

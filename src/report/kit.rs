@@ -107,5 +107,5 @@ pub(super) fn trust(lab: &LabDefinition, reference: &Reference, system: &SystemR
     let point = answers::find(reference, system)?;
     let model = lab.models.iter().find(|m| m.id == system.model)?;
     let definition = model.operating_points.iter().find(|p| p.id == system.operating_point)?;
-    Some(parting_words(point, &definition.comparison, &point.comparison))
+    Some(parting_words(point, definition.comparison.as_ref()?, point.comparison.as_ref()?))
 }

@@ -99,7 +99,7 @@ pub fn of_question(
                 shared,
             })));
         }
-        for (push, samples) in &point.comparison.runs {
+        for (push, samples) in point.comparison.iter().flat_map(|comparison| &comparison.runs) {
             pictures.push(Picture::Fixed(draw(&comparison_figure(point, *push, samples), &next_id())?));
         }
     }

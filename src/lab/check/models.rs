@@ -1,6 +1,6 @@
 use super::{Checker, span};
 use crate::algebra::{Expression, ExpressionError, NodeKind, Rational, SymbolUse};
-use crate::lab::file::{LabFile, ModelFile, OperatingPointFile, Text};
+use crate::lab::file::{ComparisonFile, LabFile, ModelFile, OperatingPointFile, Text};
 use crate::lab::{ModelDefinition, OperatingPointDefinition, Parameter};
 use crate::model::{self, Comparison, Coordinate, Equation, Equilibrium, Exact, Model, ModelError};
 use std::collections::BTreeMap;
@@ -137,7 +137,9 @@ impl Checker<'_> {
         }
         let input = self.one_of(&file.input, "input", &inputs);
         let output = self.one_of(&file.output, "coordinate", &coordinates);
-        let comparison = self.comparison(file);
+        let before_comparison = self.findings.len();
+        let comparison = file.comparison.as_ref().and_then(|comparison| self.comparison(comparison));
+        let comparison_reads = self.findings.len() == before_comparison;
         let at = Equilibrium { values };
         if self.findings.len() == before
             && let Some((model, parameters)) = checked
@@ -154,9 +156,10 @@ impl Checker<'_> {
             input_unit: unit(&model.inputs.value.0, input?),
             output: file.output.value.clone(),
             output_unit: unit(&model.coordinates.value.0, output?),
-            comparison: comparison?,
+            comparison,
             span: span(id),
         })
+        .filter(|_| comparison_reads)
     }
 
     /// A place of rest: exact when it is a rational number plus a rational multiple of pi.
@@ -185,8 +188,7 @@ impl Checker<'_> {
         value.map(Exact::Approximate)
     }
 
-    fn comparison(&mut self, file: &OperatingPointFile) -> Option<Comparison> {
-        let comparison = &file.comparison;
+    fn comparison(&mut self, comparison: &ComparisonFile) -> Option<Comparison> {
         let horizon_s = self.positive(&comparison.horizon_s, "a horizon");
         let departure = self.positive(&comparison.departure, "a departure");
         let pushes: Vec<Option<f64>> = comparison
