@@ -6,6 +6,7 @@ mod claims;
 mod class_marks;
 mod cli;
 mod conflicts;
+mod ctms;
 mod hard_polynomials;
 mod hard_table;
 mod laws;
