@@ -55,7 +55,9 @@ pub enum ModelError {
     NotAnEquilibrium { equation: usize, left: String, right: String },
     #[error("the highest derivatives cannot be solved for: their matrix is singular at this point")]
     Singular,
-    #[error("coordinate `{coordinate}` is differentiated {primes} times: two is the most we take")]
+    #[error("the output follows a derivative of the input: its transfer function has more zeros than poles")]
+    Improper,
+    #[error("`{coordinate}` is differentiated {primes} times: two is the most we take")]
     OrderTooHigh { coordinate: String, primes: u8 },
     #[error("`{name}` has no value")]
     NoValue { name: String },
@@ -68,13 +70,13 @@ pub enum ModelError {
     Simulation { push: f64, source: OdeError },
 }
 
-/// The most often a coordinate is differentiated.
+/// The most often a coordinate or an input is differentiated.
 const HIGHEST_ORDER: u8 = 2;
 
 impl Model {
     /// Reads the equations, `left = right`, and checks every name in them.
     ///
-    /// Primes are time derivatives, of coordinates only.
+    /// Primes are time derivatives, of coordinates and inputs.
     pub fn new<T: AsRef<str>>(
         coordinates: Vec<Coordinate>,
         inputs: Vec<String>,
@@ -114,11 +116,11 @@ impl Model {
         }
     }
 
-    /// How often `coordinate` is differentiated at most in the equations; 0 when it never is.
-    pub fn order_of(&self, coordinate: &str) -> u8 {
+    /// How often a coordinate or an input is differentiated at most in the equations; 0 when it never is.
+    pub fn order_of(&self, name: &str) -> u8 {
         let sides = self.equations.iter().flat_map(|e| [&e.left, &e.right]);
         let uses = sides.flat_map(Expression::symbols);
-        uses.filter(|symbol| symbol.name == coordinate).map(|symbol| symbol.primes).max().unwrap_or(0)
+        uses.filter(|symbol| symbol.name == name).map(|symbol| symbol.primes).max().unwrap_or(0)
     }
 
     /// The states, each a coordinate and its primes, in the order of the coordinates: all derivatives below the highest.
@@ -164,13 +166,12 @@ impl Model {
             if symbol.primes == 0 {
                 continue;
             }
-            if !self.coordinates.iter().any(|c| c.name == symbol.name) {
-                let kind = if self.inputs.contains(&symbol.name) { "an input" } else { "a parameter" };
+            if self.parameters.contains(&symbol.name) {
                 return Err(ReadError::Text(ExpressionError {
                     start: symbol.start,
                     end: symbol.end,
-                    message: format!("`{}` is {kind} and cannot be differentiated by time", symbol.name),
-                    help: Some("only coordinates have primes".to_owned()),
+                    message: format!("`{}` is a parameter and cannot be differentiated by time", symbol.name),
+                    help: Some("only coordinates and inputs have primes".to_owned()),
                 }));
             }
             if symbol.primes > HIGHEST_ORDER {
@@ -241,8 +242,8 @@ mod tests {
             (&["x"], &["m*x'' + k*X = F"], "equation 1: `X` is not a name", "did you mean `x`?"),
             (&["theta"], &["m*thta'' = F"], "`thta`", "did you mean `theta`?"),
             (&["x"], &["m*x''' = F"], "`x` is differentiated 3 times", ""),
-            (&["x"], &["m*x'' = F'"], "`F` is an input", "only coordinates"),
-            (&["x"], &["m'*x'' = F"], "`m` is a parameter", "only coordinates"),
+            (&["x"], &["m*x'' = F'''"], "`F` is differentiated 3 times", ""),
+            (&["x"], &["m'*x'' = F"], "`m` is a parameter", "only coordinates and inputs"),
             (&["x"], &["m*x''"], "no `=`", "left = right"),
             (&["sin"], &["sin = 1"], "`sin` cannot be a name", ""),
             (&["pi"], &["pi = 1"], "`pi` cannot be a name", ""),

@@ -75,8 +75,8 @@ fn places(model: &Model, input: &str, output: &str) -> Result<(usize, usize), Mo
 struct Slopes {
     /// By equation, coordinate and primes 0..=order.
     coordinates: Vec<Vec<Vec<Rational>>>,
-    /// By equation and input.
-    inputs: Vec<Vec<Rational>>,
+    /// By equation, input and primes 0..=the highest of that input.
+    inputs: Vec<Vec<Vec<Rational>>>,
     /// The order of each coordinate.
     orders: Vec<usize>,
     exact: bool,
@@ -107,25 +107,27 @@ impl Slopes {
                 by_coordinate.push(row?);
             }
             coordinates.push(by_coordinate);
-            let row: Result<Vec<_>, _> = model.inputs.iter().map(|name| slope(&residual, name, 0)).collect();
-            inputs.push(row?);
+            let mut by_input = Vec::new();
+            for name in &model.inputs {
+                let row: Result<Vec<_>, _> =
+                    (0..=model.order_of(name)).map(|k| slope(&residual, name, k)).collect();
+                by_input.push(row?);
+            }
+            inputs.push(by_input);
         }
         let orders = highest.iter().map(|(_, order)| usize::from(*order)).collect();
         Ok(Self { coordinates, inputs, orders, exact })
     }
 
-    /// P(s) q + r u = 0 solved for one coordinate by Cramer's rule.
+    /// P(s) q + r(s) u = 0 solved for one coordinate by Cramer's rule.
     fn eliminate(&self, input: usize, output: usize) -> Result<TransferFunction, ModelError> {
-        let system: Vec<Vec<Polynomial>> = self
-            .coordinates
-            .iter()
-            .map(|row| {
-                row.iter().map(|slopes| Polynomial::new(slopes.iter().rev().cloned().collect())).collect()
-            })
-            .collect();
+        let polynomial =
+            |slopes: &Vec<Rational>| Polynomial::new(slopes.iter().rev().cloned().collect::<Vec<_>>());
+        let system: Vec<Vec<Polynomial>> =
+            self.coordinates.iter().map(|row| row.iter().map(polynomial).collect()).collect();
         let mut replaced = system.clone();
         for (row, slopes) in replaced.iter_mut().zip(&self.inputs) {
-            row[output] = Polynomial::constant(-&slopes[input]);
+            row[output] = -&polynomial(&slopes[input]);
         }
         let (num, den) = (polynomial_determinant(replaced), polynomial_determinant(system));
         match den.leading() {
@@ -135,7 +137,9 @@ impl Slopes {
         }
     }
 
-    /// E h + S x + U u = 0 solved for the highest derivatives h.
+    /// E h + S x + U0 u + U1 u' + … = 0 solved for the highest derivatives h.
+    ///
+    /// Where derivatives of the input enter, a state is not the coordinate itself but what is left of it, see [`without_derivatives`].
     fn state_space(&self, input: usize, output: usize) -> Result<StateSpace, ModelError> {
         let leading = Matrix {
             rows: self
@@ -144,42 +148,41 @@ impl Slopes {
                 .map(|row| row.iter().map(|slopes| last(slopes)).collect())
                 .collect(),
         };
-        // Below the highest, coordinate by coordinate: the same order as the states; then the input.
+        // Below the highest, coordinate by coordinate: the same order as the states; then the input and its derivatives.
         let rest = self.coordinates.iter().zip(&self.inputs).map(|(row, inputs)| {
             let states = row.iter().flat_map(|slopes| &slopes[..slopes.len() - 1]);
-            states.chain([&inputs[input]]).map(|slope| -slope).collect()
+            states.chain(&inputs[input]).map(|slope| -slope).collect()
         });
         let solved = leading.solve(&Matrix { rows: rest.collect() }).ok_or(ModelError::Singular)?;
         let n: usize = self.orders.iter().sum();
-        let mut state_space = StateSpace {
-            a: Matrix::zeros(n, n),
-            b: Matrix::zeros(n, 1),
-            c: Matrix::zeros(1, n),
-            d: Matrix::zeros(1, 1),
-        };
+        let inputs = self.inputs.first().map_or(1, |row| row[input].len());
+        let mut a = Matrix::zeros(n, n);
+        let mut b = Matrix::zeros(n, inputs);
+        let mut c = Matrix::zeros(1, n);
+        let mut d = Matrix::zeros(1, inputs);
         let mut first = 0;
         for (coordinate, &order) in self.orders.iter().enumerate() {
             let highest = &solved.rows[coordinate];
             for k in 0..order {
                 let row = first + k;
                 if k + 1 < order {
-                    state_space.a.rows[row][row + 1] = Rational::ONE;
+                    a.rows[row][row + 1] = Rational::ONE;
                 } else {
-                    state_space.a.rows[row] = highest[..n].to_vec();
-                    state_space.b.rows[row][0] = highest[n].clone();
+                    a.rows[row] = highest[..n].to_vec();
+                    b.rows[row] = highest[n..].to_vec();
                 }
             }
             if coordinate == output {
                 if order > 0 {
-                    state_space.c.rows[0][first] = Rational::ONE;
+                    c.rows[0][first] = Rational::ONE;
                 } else {
-                    state_space.c.rows[0] = highest[..n].to_vec();
-                    state_space.d.rows[0][0] = highest[n].clone();
+                    c.rows[0] = highest[..n].to_vec();
+                    d.rows[0] = highest[n..].to_vec();
                 }
             }
             first += order;
         }
-        Ok(state_space)
+        without_derivatives(a, b, c, d).ok_or(ModelError::Improper)
     }
 
     fn linear_equations(&self, model: &Model) -> Vec<Vec<(String, Rational)>> {
@@ -191,12 +194,38 @@ impl Slopes {
                     terms.push((primed(&coordinate.name, primes as u8), slope.clone()));
                 }
             }
-            terms.extend(model.inputs.iter().cloned().zip(inputs.iter().cloned()));
+            for (input, slopes) in model.inputs.iter().zip(inputs) {
+                for (primes, slope) in slopes.iter().enumerate().rev() {
+                    terms.push((primed(input, primes as u8), slope.clone()));
+                }
+            }
             terms.retain(|(_, slope)| !slope.is_zero());
             equations.push(terms);
         }
         equations
     }
+}
+
+/// x' = A x + b₀ u + b₁ u' + …, y = c x + d₀ u + d₁ u' + … without the derivatives of u; `b` and `d` have a column for each.
+///
+/// With x = z + bₖ u⁽ᵏ⁻¹⁾ the highest, k, is gone and leaves A bₖ to bₖ₋₁ and c bₖ to dₖ₋₁. `None` when dₖ is not 0 then: y
+/// follows a derivative of u, which no state space does.
+fn without_derivatives(a: Matrix, mut b: Matrix, c: Matrix, mut d: Matrix) -> Option<StateSpace> {
+    let column =
+        |of: &Matrix, k: usize| Matrix { rows: of.rows.iter().map(|row| vec![row[k].clone()]).collect() };
+    for k in (1..d.rows[0].len()).rev() {
+        if !d.rows[0][k].is_zero() {
+            return None;
+        }
+        let moved = column(&b, k);
+        let (to_b, to_d) = (a.mul(&moved)?, c.mul(&moved)?);
+        for (row, more) in b.rows.iter_mut().zip(&to_b.rows) {
+            row[k - 1] = &row[k - 1] + &more[0];
+        }
+        d.rows[0][k - 1] = &d.rows[0][k - 1] + &to_d.rows[0][0];
+    }
+    let (b, d) = (column(&b, 0), column(&d, 0));
+    Some(StateSpace { a, b, c, d })
 }
 
 fn last(slopes: &[Rational]) -> Rational {
@@ -361,6 +390,44 @@ mod tests {
         assert!(!linear.exact);
         let slope = linear.transfer_function.den.to_f64()[1];
         assert!((slope - 0.25 / 2f64.sqrt()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn inputs_that_enter_with_their_derivatives() {
+        let plant =
+            |equations| Plant { coordinates: &["x", "y"], inputs: &["u"], parameters: &[], equations };
+        for (name, equations, num, den) in [
+            // s² X + 3 s X + 2 X = (5 s + 7) U by hand.
+            (
+                "a lead",
+                &["x'' + 3*x' + 2*x = 5*u' + 7*u", "y = x"],
+                p(&[(5, 1), (7, 1)]),
+                p(&[(1, 1), (3, 1), (2, 1)]),
+            ),
+            ("direct feedthrough", &["x' + 2*x = 3*u'", "y = x"], p(&[(3, 1), (0, 1)]), p(&[(1, 1), (2, 1)])),
+            (
+                "twice",
+                &["x'' + x' = 4*u'' + u", "y = x"],
+                p(&[(4, 1), (0, 1), (1, 1)]),
+                p(&[(1, 1), (1, 1), (0, 1)]),
+            ),
+            // y = u' − x' with x' = u' − x is x.
+            (
+                "one that falls out",
+                &["x' = u' - x", "y = u' - x'"],
+                p(&[(1, 1), (0, 1)]),
+                p(&[(1, 1), (1, 1)]),
+            ),
+        ] {
+            let linear = plant(equations).linearize(&[], "u", "y").unwrap_or_else(|e| panic!("{name}: {e}"));
+            assert_eq!(linear.transfer_function, TransferFunction { num, den }, "{name}");
+            check_two_routes(&linear);
+        }
+        let differentiator = plant(&["x' = -x + u", "y = u' + x"]).linearize(&[], "u", "y");
+        assert_eq!(differentiator, Err(ModelError::Improper));
+        let lead = plant(&["x'' + 3*x' = 5*u' + 7*u", "y = x"]).linearize(&[], "u", "y").unwrap();
+        let shown: Vec<&str> = lead.linear_equations[0].iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(shown, ["x''", "x'", "u'", "u"]);
     }
 
     #[test]

@@ -64,7 +64,8 @@ impl Checker<'_> {
             self.error("lab.equation", place, message, None);
             return None;
         }
-        let moving: Vec<&str> = coordinates.iter().map(|(name, _)| name.value.as_str()).collect();
+        let moving = coordinates.iter().map(|(name, _)| name).chain(inputs.iter().map(|(name, _)| name));
+        let moving: Vec<&str> = moving.map(|name| name.value.as_str()).collect();
         let equations: Vec<_> = equations.iter().map(|text| self.equation(text, &known, &moving)).collect();
         Some(Model {
             coordinates: coordinates
@@ -98,7 +99,7 @@ impl Checker<'_> {
             if let Err(error) = alone.check_names(known) {
                 self.expression_error("lab.equation", text, error);
             } else if primes > 0 && !moving.contains(&name.as_str()) {
-                let message = format!("`{name}` is no coordinate, so it has no derivative");
+                let message = format!("`{name}` is a parameter, so it has no derivative");
                 self.error("lab.equation", place, message, Some(format!("write `{name}` without primes")));
             } else if primes > 2 {
                 let message =

@@ -272,7 +272,7 @@ fn a_wrong_lab_says_where_and_what_to_do() {
         "m*g*l*sin(theta)",
         "m*g'*l*sin(theta)",
         "g'",
-        "`g` is no coordinate, so it has no derivative",
+        "`g` is a parameter, so it has no derivative",
         "write `g` without primes",
     );
     check(
