@@ -8,6 +8,7 @@ mod linearization;
 mod mistakes;
 mod motion;
 mod program;
+mod small_signal;
 
 pub use compare::{Comparison, ComparisonRun, ComparisonSample, compare};
 pub use equations::{Coordinate, Equation, Model, ModelError};
@@ -15,3 +16,4 @@ pub use equilibrium::Equilibrium;
 pub use exact::Exact;
 pub use linearization::{Linearization, linearize};
 pub use mistakes::{Derivation, Estimates, Mistake, MistakeKind, Pair, Place, RealFunction, RealPolynomial};
+pub use small_signal::{Departure, SmallSignal};

@@ -80,13 +80,14 @@ fn second_routes(lab: &LabDefinition, reference: &Reference) -> Vec<Check> {
         .into_iter()
         .map(|agreement| Check {
             found: format!(
-                "{}: {}",
+                "{}: {}{}",
                 agreement.routes,
                 match agreement.digits {
                     d if d.is_infinite() => "exactly equal".to_owned(),
                     d if agreement.holds() => format!("{d:.1} digits agree"),
                     d => format!("only {d:.1} digits agree, {:.1} are wanted", agreement.wanted),
-                }
+                },
+                if agreement.note.is_empty() { String::new() } else { format!("; {}", agreement.note) }
             ),
             holds: agreement.holds(),
             what: agreement.what,

@@ -1,12 +1,12 @@
+mod small_signal;
+
 use super::*;
-use crate::algebra::{Rational, to_f64};
-use crate::lab::{LabDefinition, OperatingPointDefinition, SimulationDefinition};
+use crate::algebra::to_f64;
+use crate::lab::{LabDefinition, SimulationDefinition};
 use crate::lti::{InputKind, Pole, Stability, StateSpace, matrix_exponential_response};
-use crate::model::{Comparison, Model, compare};
 use crate::nonlinear::{simulate_fixed_step, without_nonlinearities};
 use nalgebra::linalg::{Schur, balancing};
 use nalgebra::{Complex, DMatrix};
-use std::collections::BTreeMap;
 
 /// How well two routes to the same answer agree.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,6 +19,8 @@ pub struct Agreement {
     pub digits: f64,
     /// Digits demanded.
     pub wanted: f64,
+    /// What else was seen, in words; empty when nothing.
+    pub note: String,
 }
 
 impl Agreement {
@@ -38,7 +40,13 @@ pub fn second_route(lab: &LabDefinition, reference: &Reference) -> Vec<Agreement
         for (at, point) in definition.operating_points.iter().zip(&model.operating_points) {
             let name = format!("{}.{}", model.id, point.id);
             linear_routes(&name, point, &mut agreements);
-            agreements.extend(tangent_route(&name, &definition.model, &parameters, at, point));
+            agreements.extend(small_signal::small_signal_route(
+                &name,
+                &definition.model,
+                &parameters,
+                at,
+                point,
+            ));
         }
     }
     for (definition, simulation) in lab.simulations.iter().zip(&reference.simulations) {
@@ -61,6 +69,7 @@ fn linear_routes(name: &str, point: &OperatingPointReference, agreements: &mut V
             routes: "elimination against state space, in exact fractions",
             digits: if same { f64::INFINITY } else { 0.0 },
             wanted: 16.0,
+            note: String::new(),
         });
     }
     let main = point.main();
@@ -69,6 +78,7 @@ fn linear_routes(name: &str, point: &OperatingPointReference, agreements: &mut V
         routes: "roots of the characteristic polynomial against eigenvalues of A",
         digits: eigenvalue_digits(&main.linearization.state_space, &main.internal_poles),
         wanted: 8.0 / main.internal_poles.iter().map(|p| p.multiplicity).max().unwrap_or(1) as f64,
+        note: String::new(),
     });
     for (what, poles, stability) in [
         ("stability", &main.poles, main.stability),
@@ -83,6 +93,7 @@ fn linear_routes(name: &str, point: &OperatingPointReference, agreements: &mut V
                 0.0
             },
             wanted: 16.0,
+            note: String::new(),
         });
     }
     for (what, kind, response) in [
@@ -102,38 +113,9 @@ fn linear_routes(name: &str, point: &OperatingPointReference, agreements: &mut V
             routes: "partial fractions against matrix exponential",
             digits,
             wanted: 8.0,
+            note: String::new(),
         });
     }
-}
-
-/// For ever smaller pushes the nonlinear equations must approach the linear model.
-fn tangent_route(
-    name: &str,
-    model: &Model,
-    parameters: &BTreeMap<String, Rational>,
-    at: &OperatingPointDefinition,
-    point: &OperatingPointReference,
-) -> Option<Agreement> {
-    let (drawn, found) = (at.comparison.as_ref()?, point.comparison.as_ref()?);
-    let parting = found.parting_push?;
-    let pushes = vec![parting / 100.0, parting / 1000.0];
-    let small = Comparison { pushes, ..drawn.clone() };
-    let digits =
-        compare(model, parameters, &at.at, &at.input, &at.output, &small).map_or(0.0, |comparison| {
-            let departure = |run: &(f64, Vec<(f64, f64, f64)>)| {
-                digits_of_agreement(run.1.iter().map(|(_, linear, nonlinear)| (*linear, *nonlinear)))
-            };
-            match comparison.runs.as_slice() {
-                [small, smaller] if departure(smaller) > departure(small) + 0.5 => departure(smaller),
-                _ => 0.0,
-            }
-        });
-    Some(Agreement {
-        what: format!("{name} linear model"),
-        routes: "linearization against the nonlinear equations under a push a thousandth of the parting push",
-        digits,
-        wanted: 3.0,
-    })
 }
 
 fn simulation_routes(
@@ -161,6 +143,7 @@ fn simulation_routes(
             routes: "located switching against small fixed steps",
             digits,
             wanted: 3.5,
+            note: String::new(),
         });
     }
 }
