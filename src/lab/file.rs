@@ -1,7 +1,8 @@
 //! The lab file as typed: serde mirrors of the YAML, nothing checked yet. Each field's comment is its manual.
 
-use serde::de::{Deserialize, Deserializer, IgnoredAny, MapAccess, Visitor};
-use serde_yaml::Spanned;
+pub(super) use super::spanned::Spanned;
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{self, Deserialize, Deserializer, IgnoredAny, MapAccess, Visitor};
 use std::fmt;
 use std::marker::PhantomData;
 
@@ -9,7 +10,7 @@ use std::marker::PhantomData;
 pub(super) type Text = Spanned<String>;
 
 /// A mapping in file order, each key with its place.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Entries<T>(pub Vec<(Text, T)>);
 
 impl<T> Default for Entries<T> {
@@ -48,8 +49,8 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Entries<T> {
 pub(super) struct LabFile {
     /// The lab's id: lower-case letters, digits, `-` and `_`. Answer files name it.
     pub lab: Text,
-    /// Title, one line.
-    pub title: String,
+    /// Title, one line. Default: the id in words.
+    pub title: Option<String>,
     /// Course, one line.
     #[serde(default)]
     pub course: String,
@@ -77,15 +78,15 @@ pub(super) struct LabFile {
     /// What is looked for in a wrong transfer function.
     #[serde(default)]
     pub mistakes: MistakesFile,
-    /// What all questions add up to, points.
-    pub total: Text,
+    /// What all questions add up to, points. Default: what they do.
+    pub total: Option<Text>,
     /// The questions by id, in the order of the handout. The id is the answer's key and may have dots.
     pub questions: Entries<QuestionFile>,
     /// The observation sheet a person fills in during the session.
     #[serde(default)]
     pub observed: ObservedFile,
-    /// How the parts make up the total.
-    pub cover: CoverFile,
+    /// How the parts make up the total. Default: one row, of the questions and of what is observed.
+    pub cover: Option<CoverFile>,
     /// Values known independently; `verify` holds the computed ones against them. By path into the reference.
     #[serde(default)]
     pub expect: Entries<ExpectFile>,
@@ -115,8 +116,8 @@ pub(super) struct ParameterFile {
 #[derive(Debug, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ModelFile {
-    /// Title, one line.
-    pub title: String,
+    /// Title, one line. Default: the id in words.
+    pub title: Option<String>,
     /// Generalized coordinates by name.
     pub coordinates: Spanned<Entries<QuantityFile>>,
     /// Inputs by name.
@@ -143,8 +144,8 @@ pub(super) struct QuantityFile {
 #[derive(Debug, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct OperatingPointFile {
-    /// Title, one line.
-    pub title: String,
+    /// Title, one line. Default: the id in words.
+    pub title: Option<String>,
     /// Coordinates and inputs at rest: numbers, `pi`, and formulas of them; what is left out is 0.
     #[serde(default)]
     pub at: Entries<Text>,
@@ -172,8 +173,8 @@ pub(super) struct ComparisonFile {
 #[derive(Debug, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SimulationFile {
-    /// Title, one line.
-    pub title: String,
+    /// Title, one line. Default: the id in words.
+    pub title: Option<String>,
     /// What drives the chain.
     pub source: Spanned<SourceFile>,
     /// The blocks in the order the signal passes them.
@@ -328,7 +329,7 @@ pub(super) struct TolerancesFile {
 }
 
 /// Right within max(absolute, relative · |expected|), or when correctly rounded to at least so many figures.
-#[derive(Debug, serde::Deserialize)]
+#[derive(Clone, Debug, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ToleranceFile {
     /// In the value's unit; the width that an expected zero has. Default 0.
@@ -343,27 +344,30 @@ pub(super) struct ToleranceFile {
 #[derive(Debug, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct QuestionFile {
-    /// As on the handout: `Task 1, question 4`.
-    pub number: String,
-    /// Title, one line.
-    pub title: String,
+    /// As on the handout: `Task 1, question 4`. Default: `Question 3` for the third.
+    pub number: Option<String>,
+    /// Title, one line. Default: the id in words.
+    pub title: Option<String>,
     /// What is asked, in Markdown.
     #[serde(default)]
     pub text: String,
-    /// Points; its criteria add up to them.
-    pub points: Text,
+    /// Points; its criteria add up to them. Default: what its criteria, or its fields, add up to.
+    pub points: Option<Text>,
     /// Ids of the outcomes it assesses.
     #[serde(default)]
     pub outcomes: Vec<Text>,
-    /// What it is about: `<model>.<operating point>` or the id of a simulation.
+    /// What it is about: `<model>.<operating point>` or the id of a simulation. Default: the only operating point of the lab.
     pub about: Option<Text>,
+    /// `impulse` or `step`: the response its criteria judge unless they say otherwise. Default: `step` for features that only
+    /// step responses have, else `impulse`.
+    pub response: Option<Text>,
     /// The one field of the answer, under the question's own id. Give this or `fields`.
-    pub answer: Option<FieldFile>,
+    pub answer: Option<FieldForm>,
     /// The fields of the answer by name; their paths are `<question id>.<name>`.
     #[serde(default)]
-    pub fields: Entries<FieldFile>,
-    /// What earns the points, by id.
-    pub criteria: Spanned<Entries<CriterionFile>>,
+    pub fields: Entries<FieldForm>,
+    /// What earns the points, by id. Default: the usual criteria of each field's kind.
+    pub criteria: Option<Spanned<Entries<CriterionFile>>>,
     /// The answer that earns full marks, written as a student would.
     ///
     /// Not read here: its lines become an answer file, which is read like a student's.
@@ -371,29 +375,87 @@ pub(super) struct QuestionFile {
     pub _model_answer: IgnoredAny,
 }
 
+/// A field of an answer; a word stands for a field of that `kind`: `poles`, `overshoot_percent`.
+#[derive(Debug)]
+pub(super) struct FieldForm(pub FieldFile);
+
 /// A field of an answer.
-#[derive(Debug, serde::Deserialize)]
+#[derive(Debug, Default, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct FieldFile {
-    /// `transfer_function`, `poles`, `value`, `stability`, `shape`, `nonlinearity`, `prose`, `figure` or `data`.
-    pub kind: Text,
-    /// What is asked for, one line.
-    pub prompt: String,
+    /// `transfer_function`, `poles`, `value`, `stability`, `shape`, `nonlinearity`, `prose`, `figure` or `data`; or a feature, for
+    /// the value of it. Default: what `feature`, `expected` or `concepts` is for.
+    pub kind: Option<Text>,
+    /// What is asked for, one line. Default: the kind in words.
+    pub prompt: Option<String>,
     /// For a `value`: the unit it is asked in, such as `rad/s`; `1` for a pure number. Default: that of the feature.
     pub unit: Option<Text>,
     /// Full marks can be had without it. Default false.
     #[serde(default)]
     pub optional: bool,
+    /// Its points, in a question without `criteria`. Default: an equal share of what the other fields leave.
+    pub points: Option<Text>,
+    /// The operating point it is judged against, in a question without `criteria`. Default: the question's `about`.
+    pub of: Option<Text>,
+    /// `impulse` or `step`, in a question without `criteria`. Default: the question's `response`.
+    pub response: Option<Text>,
+    /// For a `value`, in a question without `criteria`: `final_value`, `overshoot_percent`, … as for a criterion.
+    pub feature: Option<Text>,
+    /// In place of the lab's, in a question without `criteria`.
+    pub tolerance: Option<Spanned<ToleranceFile>>,
+    /// For a `nonlinearity`, in a question without `criteria`: `saturation`, `dead zone`, …
+    pub expected: Option<Text>,
+    /// For `prose`, in a question without `criteria`: what it should say, by id.
+    pub concepts: Option<Spanned<Entries<ConceptFile>>>,
+}
+
+impl<'de> Deserialize<'de> for FieldForm {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        enum Form {
+            Word(String),
+            Keys(Box<FieldFile>),
+        }
+
+        struct FormVisitor;
+
+        impl<'de> Visitor<'de> for FormVisitor {
+            type Value = Form;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a kind of field such as `poles`, or a mapping")
+            }
+
+            fn visit_str<E: de::Error>(self, word: &str) -> Result<Form, E> {
+                Ok(Form::Word(word.to_owned()))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Form, A::Error> {
+                FieldFile::deserialize(MapAccessDeserializer::new(map)).map(|keys| Form::Keys(Box::new(keys)))
+            }
+        }
+
+        impl<'de> Deserialize<'de> for Form {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                deserializer.deserialize_any(FormVisitor)
+            }
+        }
+
+        let Spanned { value, defined } = Spanned::<Form>::deserialize(deserializer)?;
+        Ok(Self(match value {
+            Form::Word(value) => FieldFile { kind: Some(Spanned { value, defined }), ..FieldFile::default() },
+            Form::Keys(keys) => *keys,
+        }))
+    }
 }
 
 /// What earns points. Which keys a criterion takes depends on its `check`.
 #[derive(Debug, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CriterionFile {
-    /// In words, for the report.
-    pub title: String,
-    /// Points, in hundredths at the finest.
-    pub points: Text,
+    /// In words, for the report. Default: the id in words.
+    pub title: Option<String>,
+    /// Points, in hundredths at the finest. Default: an equal share of what the other criteria leave.
+    pub points: Option<Text>,
     /// The field judged, by name. Default: the field whose name is the criterion's id, or its beginning up to a dot; else the
     /// only field.
     pub field: Option<Text>,
@@ -401,7 +463,7 @@ pub(super) struct CriterionFile {
     pub check: Text,
     /// The operating point judged against. Default: the question's `about`.
     pub of: Option<Text>,
-    /// `impulse` or `step`. Default `impulse`. For `feature`, `shape`, `plot`.
+    /// `impulse` or `step`. Default: the question's `response`. For `feature`, `shape`, `plot`.
     pub response: Option<Text>,
     /// For `feature`: `initial_value`, `final_value`, `peak`, `period_s`, … as the manual lists them.
     pub feature: Option<Text>,
@@ -433,7 +495,7 @@ pub(super) struct CriterionFile {
 }
 
 /// Something prose may say.
-#[derive(Debug, serde::Deserialize)]
+#[derive(Clone, Debug, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ConceptFile {
     /// In words, for the report: `it swings about the bottom`.
@@ -485,8 +547,8 @@ pub(super) struct ObservedRowFile {
 #[derive(Debug, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CoverFile {
-    /// What the rows add up to, points.
-    pub total: Text,
+    /// What the rows add up to, points. Default: what they do.
+    pub total: Option<Text>,
     /// Boxes by id.
     pub rows: Entries<CoverRowFile>,
 }

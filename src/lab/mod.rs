@@ -1,6 +1,7 @@
 //! What is asked: the lab file, checked, as a [`LabDefinition`].
 
 mod check;
+mod defaults;
 mod definition;
 mod errors;
 mod feature;
@@ -13,6 +14,7 @@ mod points;
 mod read;
 mod sheet;
 mod shelf;
+mod spanned;
 mod template;
 
 pub use definition::*;

@@ -1,6 +1,6 @@
 use super::{Checker, Names, span};
 use crate::lab::file::{CoverFile, ObservedFile};
-use crate::lab::{Cover, CoverRow, CoverSource, Level, ObservedRow, Points};
+use crate::lab::{Cover, CoverRow, CoverSource, Level, ObservedRow, Points, defaults};
 
 const SOURCES: &[(&str, CoverSource)] = &[
     ("questions_and_observed", CoverSource::QuestionsAndObserved),
@@ -83,7 +83,20 @@ impl Checker<'_> {
         rows.into_iter().collect()
     }
 
-    pub(super) fn cover(&mut self, file: &CoverFile, observed: bool) -> Option<Cover> {
+    /// What the parts make up; `questions` and `observed` are what they are worth.
+    pub(super) fn cover(
+        &mut self,
+        file: Option<&CoverFile>,
+        questions: Option<Points>,
+        observed: Option<Points>,
+    ) -> Option<Cover> {
+        match file {
+            Some(file) => self.stated_cover(file, observed != Some(Points::ZERO)),
+            None => Some(defaults::cover(questions?, observed?)),
+        }
+    }
+
+    fn stated_cover(&mut self, file: &CoverFile, observed: bool) -> Option<Cover> {
         let known: Vec<&str> = SOURCES.iter().map(|(name, _)| *name).collect();
         let rows = file.rows.0.iter().map(|(id, row)| {
             self.id(id, "row id");
@@ -106,14 +119,16 @@ impl Checker<'_> {
             })
         });
         let rows: Vec<_> = rows.collect();
-        let total = self.points(&file.total);
-        let (rows, total) = (rows.into_iter().collect::<Option<Vec<_>>>()?, total?);
+        let total = file.total.as_ref().map(|text| (text, self.points(text)));
+        let rows = rows.into_iter().collect::<Option<Vec<_>>>()?;
         let sum: Points = rows.iter().map(|row| row.points).sum();
+        let Some((text, total)) = total else { return Some(Cover { rows, total: sum }) };
+        let total = total?;
         if sum != total {
             let message =
                 format!("the rows of the cover sheet add up to {sum} points, but its `total` is {total}");
             let help = format!("change `total` to {sum}, or the points of a row");
-            self.error("lab.points", span(&file.total), message, Some(help));
+            self.error("lab.points", span(text), message, Some(help));
         }
         Some(Cover { rows, total })
     }

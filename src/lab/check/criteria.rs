@@ -2,9 +2,10 @@ use super::questions::{Fields, kind_name};
 use super::scalars::Defaults;
 use super::{Checker, Names, span};
 use crate::algebra::Rational;
+use crate::lab::defaults;
 use crate::lab::file::{ConceptFile, CriterionFile, Entries, QuestionFile, Text};
 use crate::lab::names::list;
-use crate::lab::{AskedFeature, Check, Concept, Criterion, Curve, Described, FeatureKind, SystemRef};
+use crate::lab::{AskedFeature, Check, Concept, Criterion, Curve, Described, FeatureKind, Points, SystemRef};
 use crate::lti::InputKind;
 use crate::prose::Phrase;
 use crate::source::Span;
@@ -45,22 +46,23 @@ enum Subject {
 }
 
 impl Checker<'_> {
+    #[allow(clippy::too_many_arguments, reason = "each is what some check needs of the file around it")]
     pub(super) fn criterion(
         &mut self,
         name: &Text,
         file: &CriterionFile,
+        points: Option<Points>,
         question: &QuestionFile,
         fields: &Fields<'_>,
         names: &Names<'_>,
-        defaults: &Defaults,
+        given: &Defaults,
     ) -> Option<Criterion> {
         self.path(name, "criterion id");
-        let points = self.points(&file.points);
         let known: Vec<&str> = CHECKS.iter().map(|(check, _, _)| *check).collect();
         let row = self.one_of(&file.check, "check", &known).map(|i| &CHECKS[i]);
         let field = self.field(name, file, fields);
         let (check_name, kind, takes) = *row?;
-        for (key, place) in given(file) {
+        for (key, place) in keys(file) {
             if !takes.contains(&key) {
                 let message = format!("`{key}` means nothing to the check `{check_name}`");
                 let help = match takes {
@@ -82,13 +84,13 @@ impl Checker<'_> {
         }
         let follow_through = match &file.follow_through {
             Some(text) => self.fraction(text, "`follow_through`"),
-            None => Some(defaults.follow_through.credit.clone()),
+            None => Some(given.follow_through.credit.clone()),
         };
         let unit = fields.units.iter().find(|(of, _)| *of == path).map(|(_, unit)| *unit);
-        let check = self.check(check_name, file, question, fields, unit, names, defaults)?;
+        let check = self.check(check_name, file, question, fields, unit, names, given)?;
         Some(Criterion {
             id: format!("{}.{}", fields.question.value, name.value),
-            title: file.title.trim().to_owned(),
+            title: defaults::title(file.title.as_ref(), &name.value),
             points: points?,
             field: path,
             follow_through: follow_through?,
@@ -157,13 +159,12 @@ impl Checker<'_> {
             "stability" => Some(Check::Stability { of: self.system(file, question, names)? }),
             "feature" => {
                 let tolerance = self.tolerance_or(file.tolerance.as_ref(), defaults.values.clone());
-                let response = self.response(file);
                 let of = self.system(file, question, names);
-                let feature = self.feature(file, response, of.as_ref(), unit, names);
-                Some(Check::Feature { of: of?, response: response?, feature: feature?, tolerance })
+                let (response, feature) = self.feature(file, question, of.as_ref(), unit, names)?;
+                Some(Check::Feature { of: of?, response, feature, tolerance })
             }
             "shape" => {
-                let response = self.response(file);
+                let response = self.response(file, question);
                 let of = self.system(file, question, names);
                 Some(Check::Shape { of: of?, response: response? })
             }
@@ -182,19 +183,23 @@ impl Checker<'_> {
         }
     }
 
-    /// The feature asked for, in its unit and under its convention.
+    /// The feature asked for, in its unit and under its convention, and the response it is read off.
     fn feature(
         &mut self,
         file: &CriterionFile,
-        response: Option<InputKind>,
+        question: &QuestionFile,
         of: Option<&SystemRef>,
         unit: Option<&Text>,
         names: &Names<'_>,
-    ) -> Option<AskedFeature> {
+    ) -> Option<(InputKind, AskedFeature)> {
         let text = self.required(file.feature.as_ref(), file, "feature")?;
         let kinds: Vec<FeatureKind> = FeatureKind::all().collect();
         let known: Vec<&str> = kinds.iter().map(|kind| kind.as_str()).collect();
         let kind = kinds[self.one_of(text, "feature", &known)?];
+        let response = match (&file.response, &question.response) {
+            (None, None) if kind.is_of_steps() => Some(InputKind::Step),
+            _ => self.response(file, question),
+        };
         if kind.is_of_steps() && response == Some(InputKind::Impulse) {
             let message = format!("an impulse response has no `{}`", kind.as_str());
             self.error("lab.criterion", span(text), message, Some("add `response: step`".to_owned()));
@@ -222,7 +227,7 @@ impl Checker<'_> {
                 (native.clone(), [once, twice].into_iter().flatten().collect())
             }
         };
-        Some(AskedFeature { kind, unit, native, also, other_convention: other_convention? })
+        Some((response?, AskedFeature { kind, unit, native, also, other_convention: other_convention? }))
     }
 
     /// The unit a field asks for, which must measure what the feature is.
@@ -262,7 +267,7 @@ impl Checker<'_> {
         defaults: &Defaults,
     ) -> Option<Check> {
         let tolerance = self.tolerance_or(file.tolerance.as_ref(), defaults.plots.clone());
-        let response = self.response(file);
+        let response = self.response(file, question);
         let curve = match self.subject(file, question, names) {
             Some(Subject::System(of)) => response.map(|response| Curve::Response { of, response }),
             Some(Subject::Simulation(id)) => Some(Curve::Simulation { id }),
@@ -386,14 +391,14 @@ impl Checker<'_> {
         }
     }
 
-    fn response(&mut self, file: &CriterionFile) -> Option<InputKind> {
-        match &file.response {
+    fn response(&mut self, file: &CriterionFile, question: &QuestionFile) -> Option<InputKind> {
+        match file.response.as_ref().or(question.response.as_ref()) {
             Some(text) => self.input_kind(text),
             None => Some(InputKind::Impulse),
         }
     }
 
-    fn input_kind(&mut self, text: &Text) -> Option<InputKind> {
+    pub(super) fn input_kind(&mut self, text: &Text) -> Option<InputKind> {
         self.one_of(text, "response", &["impulse", "step"]).map(|i| [InputKind::Impulse, InputKind::Step][i])
     }
 
@@ -461,6 +466,9 @@ impl Checker<'_> {
             // An `about` that names nothing has been reported with its question.
             (None, Some(about)) => find(about),
             (None, None) => {
+                if let [only] = names.systems.as_slice() {
+                    return names.system(only).map(Subject::System);
+                }
                 let message =
                     format!("it is not said which system the check `{}` is about", file.check.value);
                 let help = "add `about:` to the question, or `of:` to the criterion".to_owned();
@@ -477,7 +485,7 @@ fn begins(id: &str, field: &str) -> bool {
 }
 
 /// The keys that depend on the check and are given, each with a place.
-fn given(file: &CriterionFile) -> Vec<(&'static str, Span)> {
+fn keys(file: &CriterionFile) -> Vec<(&'static str, Span)> {
     let check = span(&file.check);
     let text = |text: &Option<Text>| text.as_ref().map(span);
     [

@@ -7,14 +7,16 @@ mod mistakes;
 mod models;
 mod questions;
 mod scalars;
+#[cfg(test)]
+mod short_tests;
 mod simulations;
 #[cfg(test)]
 mod tests;
+mod usual;
 
-use super::file::{Entries, LabFile, QuantityFile, Text};
-use super::{LabDefinition, LabErrors, Outcome, Parameter, SystemRef, model_answer, read, sheet};
+use super::file::{Entries, LabFile, QuantityFile, Spanned, Text};
+use super::{LabDefinition, LabErrors, Outcome, Parameter, SystemRef, defaults, model_answer, read, sheet};
 use crate::source::{Finding, Node, SourceText, Span, Value};
-use serde_yaml::Spanned;
 
 impl LabDefinition {
     /// Reads and checks a lab file.
@@ -123,18 +125,21 @@ impl Checker<'_> {
         let parameters = self.parameters(file);
         let models = self.models(file, parameters.as_deref());
         let simulations = self.simulations(file, &names);
-        let defaults = self.defaults(&file.tolerances, &file.follow_through);
-        let questions = self.questions(file, &names, &defaults);
+        let given = self.defaults(&file.tolerances, &file.follow_through);
+        let questions = self.questions(file, &names, &given);
         let observed = self.observed(&file.observed, &names);
-        let cover = self.cover(&file.cover, !file.observed.rows.0.is_empty());
+        let worth = questions.as_ref().map(|questions| questions.iter().map(|q| q.points).sum());
+        let seen = observed.as_ref().map(|rows| rows.iter().map(|row| row.points).sum());
+        let cover = self.cover(file.cover.as_ref(), worth, seen);
         let expectations = self.expectations(&file.expect, &names);
         let mistakes = self.mistakes(&file.mistakes, models.as_deref(), parameters.as_deref());
         let (questions, parameters) = (questions?, parameters?);
-        let sheet = sheet::sheet(&file.lab.value, file.title.trim(), &questions, &parameters);
+        let title = defaults::title(file.title.as_ref(), &file.lab.value);
+        let sheet = sheet::sheet(&file.lab.value, &title, &questions, &parameters);
         let model_answer = self.model_answer(file, tree, &sheet)?;
         Some(LabDefinition {
             id: file.lab.value.clone(),
-            title: file.title.trim().to_owned(),
+            title,
             course: file.course.trim().to_owned(),
             source_note: file.source.trim().to_owned(),
             outcomes,
@@ -144,7 +149,7 @@ impl Checker<'_> {
             questions,
             observed: observed?,
             cover: cover?,
-            follow_through: defaults.follow_through,
+            follow_through: given.follow_through,
             mistakes: mistakes?,
             expectations: expectations?,
             model_answer,

@@ -1,7 +1,7 @@
 use super::{Checker, span};
 use crate::algebra::{Expression, ExpressionError, NodeKind, Rational, SymbolUse};
 use crate::lab::file::{ComparisonFile, LabFile, ModelFile, OperatingPointFile, Text};
-use crate::lab::{ModelDefinition, OperatingPointDefinition, Parameter};
+use crate::lab::{ModelDefinition, OperatingPointDefinition, Parameter, defaults};
 use crate::model::{self, Comparison, Coordinate, Equation, Equilibrium, Exact, Model, ModelError};
 use std::collections::BTreeMap;
 
@@ -26,7 +26,7 @@ impl Checker<'_> {
             }
             Some(ModelDefinition {
                 id: id.value.clone(),
-                title: m.title.trim().to_owned(),
+                title: defaults::title(m.title.as_ref(), &id.value),
                 model: model?,
                 operating_points: operating_points.into_iter().collect::<Option<_>>()?,
             })
@@ -150,7 +150,7 @@ impl Checker<'_> {
         let unit = |entries: &[(Text, crate::lab::file::QuantityFile)], i: usize| entries[i].1.unit.clone();
         Some(OperatingPointDefinition {
             id: id.value.clone(),
-            title: file.title.trim().to_owned(),
+            title: defaults::title(file.title.as_ref(), &id.value),
             at,
             at_text: file.at.0.iter().map(|(name, text)| (name.value.clone(), text.value.clone())).collect(),
             input: file.input.value.clone(),

@@ -1,8 +1,8 @@
 use super::scalars::Defaults;
 use super::{Checker, Names, span};
 use crate::lab::file::{FieldFile, LabFile, QuestionFile, Text};
-use crate::lab::names::list;
-use crate::lab::{Points, Question, QuestionField};
+use crate::lab::names::{list, suggestion};
+use crate::lab::{Check, Criterion, FeatureKind, Points, Question, QuestionField, defaults};
 use crate::submission::FieldKind;
 
 const KINDS: &[(&str, FieldKind)] = &[
@@ -38,79 +38,136 @@ impl Checker<'_> {
         &mut self,
         file: &LabFile,
         names: &Names<'_>,
-        defaults: &Defaults,
+        given: &Defaults,
     ) -> Option<Vec<Question>> {
-        let questions: Vec<_> =
-            file.questions.0.iter().map(|(id, q)| self.question(id, q, names, defaults)).collect();
+        let questions: Vec<_> = (1..)
+            .zip(&file.questions.0)
+            .map(|(position, (id, q))| self.question(position, id, q, file, names, given))
+            .collect();
         let questions = questions.into_iter().collect::<Option<Vec<_>>>();
-        let total = self.points(&file.total);
+        let total = file.total.as_ref().and_then(|total| Some((total, self.points(total)?)));
         let questions = questions?;
         self.paths(file, &questions);
         let sum: Points = questions.iter().map(|q| q.points).sum();
-        if let Some(total) = total.filter(|total| *total != sum) {
+        if let Some((text, total)) = total.filter(|(_, total)| *total != sum) {
             let message = format!("questions add up to {sum} points, but `total` is {total}");
             let help = format!("change `total` to {sum}, or the points of a question");
-            self.error("lab.points", span(&file.total), message, Some(help));
+            self.error("lab.points", span(text), message, Some(help));
         }
         Some(questions)
     }
 
     fn question(
         &mut self,
+        position: usize,
         id: &Text,
         file: &QuestionFile,
+        lab: &LabFile,
         names: &Names<'_>,
-        defaults: &Defaults,
+        given: &Defaults,
     ) -> Option<Question> {
         self.path(id, "question id");
-        let points = self.points(&file.points);
         self.outcomes(&file.outcomes, names);
         if let Some(about) = &file.about {
             self.about(about, names);
         }
-        let (fields, entries) = self.fields(id, file);
-        if file.criteria.value.0.is_empty() {
-            let message = format!("the question `{}` has no criterion", id.value);
-            self.error("lab.criterion", span(&file.criteria), message, None);
+        if let Some(response) = &file.response {
+            self.input_kind(response);
         }
-        let criteria: Vec<_> = file
-            .criteria
-            .value
-            .0
-            .iter()
-            .map(|(name, c)| self.criterion(name, c, file, &entries, names, defaults))
-            .collect();
-        let criteria = criteria.into_iter().collect::<Option<Vec<_>>>();
-        let (points, criteria) = (points?, criteria?);
-        let sum: Points = criteria.iter().map(|c| c.points).sum();
-        if sum != points && !criteria.is_empty() {
-            let message = format!(
-                "the criteria of `{}` add up to {sum} points, but the question is worth {points}",
-                id.value
-            );
-            let more = if sum < points {
-                format!("give {} more to a criterion", points - sum)
-            } else {
-                format!("take {} from a criterion", sum - points)
-            };
-            self.error(
-                "lab.points",
-                span(&file.points),
-                message,
-                Some(format!("change `points` to {sum}, or {more}")),
-            );
+        let (fields, entries) = self.fields(id, file);
+        let (points, criteria) = match &file.criteria {
+            Some(stated) => {
+                self.shorthand_is_for_usual_criteria(file);
+                if stated.value.0.is_empty() {
+                    let message = format!("the question `{}` has no criterion", id.value);
+                    self.error("lab.criterion", span(stated), message, None);
+                }
+                let typed: Vec<_> = stated.value.0.iter().map(|(_, c)| c.points.as_ref()).collect();
+                let (points, shares) = self.shares(id, file.points.as_ref(), &typed, "criteria");
+                let criteria: Vec<_> = stated
+                    .value
+                    .0
+                    .iter()
+                    .zip(shares)
+                    .map(|((name, c), share)| self.criterion(name, c, share, file, &entries, names, given))
+                    .collect();
+                (points, criteria)
+            }
+            None => {
+                let typed: Vec<_> = asked(file).map(|(_, field)| field.points.as_ref()).collect();
+                let (points, shares) = self.shares(id, file.points.as_ref(), &typed, "fields");
+                let usual = self.usual_criteria(file, &entries, &shares);
+                let criteria = usual
+                    .iter()
+                    .map(|(name, c, share)| self.criterion(name, c, *share, file, &entries, names, given));
+                (points, criteria.collect())
+            }
+        };
+        let criteria = criteria.into_iter().collect::<Option<Vec<_>>>()?;
+        let mut fields = fields?;
+        for field in fields.iter_mut().filter(|field| field.prompt.is_empty()) {
+            field.prompt = prompt(field, &criteria, lab);
         }
         Some(Question {
             id: id.value.clone(),
-            number: file.number.trim().to_owned(),
-            title: file.title.trim().to_owned(),
+            number: file
+                .number
+                .as_ref()
+                .map_or_else(|| format!("Question {position}"), |n| n.trim().to_owned()),
+            title: defaults::title(file.title.as_ref(), &id.value),
             text: file.text.trim().to_owned(),
-            points,
+            points: points?,
             outcomes: file.outcomes.iter().map(|o| o.value.clone()).collect(),
             about: file.about.as_ref().map(|about| about.value.clone()),
-            fields: fields?,
+            fields,
             criteria,
         })
+    }
+
+    /// The points of a question and of its parts (`what` names them): a part that says none has an equal share of what the others
+    /// leave, a question that says none is worth the sum.
+    fn shares(
+        &mut self,
+        id: &Text,
+        whole: Option<&Text>,
+        parts: &[Option<&Text>],
+        what: &str,
+    ) -> (Option<Points>, Vec<Option<Points>>) {
+        let before = self.findings.len();
+        let points = whole.and_then(|text| self.points(text));
+        let mut shares: Vec<Option<Points>> = parts.iter().map(|part| self.points((*part)?)).collect();
+        if self.findings.len() > before {
+            return (points, shares);
+        }
+        let sum: Points = shares.iter().flatten().copied().sum();
+        let open = parts.iter().filter(|part| part.is_none()).count();
+        let Some((text, points)) = whole.zip(points) else {
+            if open > 0 || parts.is_empty() {
+                let message = format!("it is not said how many points `{}` is worth", id.value);
+                self.error("lab.points", span(id), message, Some("add `points:`".to_owned()));
+                return (None, shares);
+            }
+            return (Some(sum), shares);
+        };
+        if open > 0 && sum < points {
+            let mut rest = defaults::split(points - sum, &vec![1; open]).into_iter();
+            shares.iter_mut().filter(|share| share.is_none()).for_each(|share| *share = rest.next());
+        } else if sum != points && !parts.is_empty() || open > 0 {
+            let message = format!(
+                "the {what} of `{}` add up to {sum} points, but the question is worth {points}",
+                id.value
+            );
+            let one = if what == "fields" { "field" } else { "criterion" };
+            let help = match open {
+                0 if sum < points => {
+                    format!("change `points` to {sum}, or give {} more to a {one}", points - sum)
+                }
+                0 => format!("change `points` to {sum}, or take {} from a {one}", sum - points),
+                _ => format!("raise `points`, since a {one} without points has a share of what is left"),
+            };
+            self.error("lab.points", span(text), message, Some(help));
+        }
+        (Some(points), shares)
     }
 
     fn about(&mut self, about: &Text, names: &Names<'_>) {
@@ -130,18 +187,16 @@ impl Checker<'_> {
         id: &'a Text,
         file: &'a QuestionFile,
     ) -> (Option<Vec<QuestionField>>, Fields<'a>) {
-        let typed: Vec<(&str, String, &FieldFile)> = match &file.answer {
-            Some(answer) => vec![("", id.value.clone(), answer)],
-            None => file
-                .fields
-                .0
-                .iter()
-                .map(|(name, field)| {
+        let mut typed: Vec<(&str, String, &FieldFile)> = Vec::new();
+        for (name, field) in asked(file) {
+            match name {
+                None => typed.push(("", id.value.clone(), field)),
+                Some(name) => {
                     self.path(name, "field name");
-                    (name.value.as_str(), format!("{}.{}", id.value, name.value), field)
-                })
-                .collect(),
-        };
+                    typed.push((&name.value, format!("{}.{}", id.value, name.value), field));
+                }
+            }
+        }
         if file.answer.is_some() != file.fields.0.is_empty() {
             let message = match file.answer {
                 Some(_) => format!("the question `{}` has both `answer` and `fields`", id.value),
@@ -150,15 +205,13 @@ impl Checker<'_> {
             let help = "give `answer` when there is one field, `fields` when there are several".to_owned();
             self.error("lab.question", span(id), message, Some(help));
         }
-        let known: Vec<&str> = KINDS.iter().map(|(name, _)| *name).collect();
         let mut fields = Vec::new();
         let mut entries = Fields { question: id, entries: Vec::new(), units: Vec::new(), complete: true };
         for (name, path, field) in typed {
-            let Some(position) = self.one_of(&field.kind, "kind of field", &known) else {
+            let Some(kind) = self.kind(&path, id, field) else {
                 entries.complete = false;
                 continue;
             };
-            let kind = KINDS[position].1;
             entries.entries.push((name, path.clone(), kind));
             match &field.unit {
                 Some(unit) if kind != FieldKind::Value => {
@@ -174,11 +227,47 @@ impl Checker<'_> {
             fields.push(QuestionField {
                 path,
                 kind,
-                prompt: field.prompt.split_whitespace().collect::<Vec<_>>().join(" "),
+                prompt: field
+                    .prompt
+                    .iter()
+                    .flat_map(|prompt| prompt.split_whitespace())
+                    .collect::<Vec<_>>()
+                    .join(" "),
                 required: !field.optional,
             });
         }
         (entries.complete.then_some(fields), entries)
+    }
+
+    /// The kind of a field: as it says, or of what it asks for.
+    fn kind(&mut self, path: &str, id: &Text, field: &FieldFile) -> Option<FieldKind> {
+        let Some(word) = &field.kind else {
+            let kind = match field {
+                FieldFile { feature: Some(_), .. } => Some(FieldKind::Value),
+                FieldFile { expected: Some(_), .. } => Some(FieldKind::Nonlinearity),
+                FieldFile { concepts: Some(_), .. } => Some(FieldKind::Prose),
+                _ => None,
+            };
+            if kind.is_none() {
+                let message = format!("it is not said of which kind the field `{path}` is");
+                self.error("lab.question", span(id), message, Some("add `kind:` to the field".to_owned()));
+            }
+            return kind;
+        };
+        if let Some((_, kind)) = KINDS.iter().find(|(name, _)| *name == word.value) {
+            return Some(*kind);
+        }
+        let features: Vec<&str> = FeatureKind::all().map(FeatureKind::as_str).collect();
+        if features.contains(&word.value.as_str()) && field.feature.is_none() {
+            return Some(FieldKind::Value);
+        }
+        let kinds: Vec<&str> = KINDS.iter().map(|(name, _)| *name).collect();
+        let all: Vec<&str> = kinds.iter().chain(&features).copied().collect();
+        let near = suggestion(&word.value, &all);
+        let help = if near.starts_with("did you mean") { near } else { suggestion(&word.value, &kinds) };
+        let message = format!("there is no kind of field `{}`", word.value);
+        self.error("lab.unknown_name", span(word), message, Some(help));
+        None
     }
 
     /// No path may be the same as, or lie inside, another: an answer file could not hold both.
@@ -200,4 +289,23 @@ impl Checker<'_> {
             }
         }
     }
+}
+
+/// The fields of a question, with their names; the one field of `answer` has none.
+pub(super) fn asked(file: &QuestionFile) -> impl Iterator<Item = (Option<&Text>, &FieldFile)> {
+    let several = file.fields.0.iter().filter(|_| file.answer.is_none());
+    file.answer.iter().map(|form| (None, &form.0)).chain(several.map(|(name, form)| (Some(name), &form.0)))
+}
+
+/// What a field asks for, from the criterion that judges it.
+fn prompt(field: &QuestionField, criteria: &[Criterion], lab: &LabFile) -> String {
+    let check =
+        criteria.iter().find(|criterion| criterion.field == field.path).map(|criterion| &criterion.check);
+    let signals = check.and_then(Check::system).and_then(|of| {
+        let (_, model) = lab.models.0.iter().find(|(id, _)| id.value == of.model)?;
+        let (_, point) =
+            model.operating_points.value.0.iter().find(|(id, _)| id.value == of.operating_point)?;
+        Some((point.output.value.as_str(), point.input.value.as_str()))
+    });
+    defaults::prompt(field.kind, check, signals)
 }

@@ -1,10 +1,9 @@
 use super::{Checker, span};
 use crate::algebra::{Rational, parse_decimal, to_f64};
 use crate::lab::Points;
-use crate::lab::file::{FollowThroughFile, Text, ToleranceFile, TolerancesFile};
+use crate::lab::file::{FollowThroughFile, Spanned, Text, ToleranceFile, TolerancesFile};
 use crate::lab::names::suggestion;
 use crate::lab::{FollowThroughRule, Tolerance};
-use serde_yaml::Spanned;
 
 /// Words a formula has a meaning for already; `s` is the variable of transfer functions.
 const RESERVED: &[&str] = &[

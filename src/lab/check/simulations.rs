@@ -1,8 +1,8 @@
 use super::{Checker, Names, span};
 use crate::lab::SimulationDefinition;
-use crate::lab::file::{BlockFile, LabFile, SimulationFile, SourceFile, Text};
+use crate::lab::defaults;
+use crate::lab::file::{BlockFile, LabFile, SimulationFile, SourceFile, Spanned, Text};
 use crate::nonlinear::{Block, Chain, Nonlinearity, Signal};
-use serde_yaml::Spanned;
 
 /// The simulations whose output jumps where a nonlinearity switches, with the block that makes it jump.
 pub(super) fn jumping(file: &LabFile) -> Vec<(&str, &'static str)> {
@@ -66,7 +66,7 @@ impl Checker<'_> {
         }
         Some(SimulationDefinition {
             id: id.value.clone(),
-            title: file.title.trim().to_owned(),
+            title: defaults::title(file.title.as_ref(), &id.value),
             chain: Chain { source: source?, blocks },
             duration_s: duration_s?,
             output: file.output.name.trim().to_owned(),

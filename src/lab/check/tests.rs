@@ -159,7 +159,7 @@ fn a_wrong_lab_says_where_and_what_to_do() {
         "`saturatoin` is not known here",
         "did you mean `saturation`?",
     );
-    check("\ntotal: 45\n", "\n", "lab", "the key `total` is missing here", "");
+    check("\nlab: ee361-lab3\n", "\n", "title", "the key `lab` is missing here", "");
     check(
         "{limit: 5}",
         "{limit: [5]}",
@@ -188,7 +188,7 @@ fn a_wrong_lab_says_where_and_what_to_do() {
         "a list (`[a, b]`, or lines that begin with `- `) is wanted here",
         "put brackets around a single entry",
     );
-    check("title: Dead zone", "title:", "", "a value is missing here", "");
+    check("lab: ee361-lab3", "lab:", "", "a value is missing here", "");
     check("\ntotal: 45", "\nlab: 45", "lab", "the key `lab` is given twice", "keep one of the two");
 
     // Numbers.
@@ -604,7 +604,7 @@ fn units_and_conventions_are_checked() {
     );
     check(
         "response: step, feature: overshoot_percent",
-        "feature: overshoot_percent",
+        "response: impulse, feature: overshoot_percent",
         "overshoot_percent",
         "an impulse response has no `overshoot_percent`",
         "add `response: step`",
