@@ -265,6 +265,21 @@ mod tests {
     }
 
     #[test]
+    fn a_point_at_the_same_place_is_no_other() {
+        let others = |at: &str, others: &[&str]| {
+            let mut of = derivation("m", "F = a*x'' + b*x' + k*sin(x)", at);
+            let top = of.others.remove(0).1;
+            let bottom = derivation("m", "F = a*x'' + b*x' + k*sin(x)", "0").at;
+            let place = |title: &&str| if title.starts_with("top") { top.clone() } else { bottom.clone() };
+            of.others = others.iter().map(|title| ((*title).to_owned(), place(title))).collect();
+            let listed = of.mistakes().into_iter().filter(|m| m.kind == MistakeKind::OtherPoint);
+            listed.map(|m| m.change).collect::<Vec<_>>()
+        };
+        assert_eq!(others("pi", &["top, other output", "bottom"]), ["at: bottom"]);
+        assert_eq!(others("0", &["top", "top, other output"]), ["at: top"]);
+    }
+
+    #[test]
     fn degrees_for_radians() {
         check_in(
             "rad",

@@ -7,7 +7,11 @@ pub(super) fn mistakes(of: &Derivation) -> Vec<Mistake> {
     let mut add = |kind, words: String, change: String, edit: Edit| {
         all.push(Mistake { kind, words, change, places: Vec::new(), edit });
     };
-    for (index, (title, _)) in of.others.iter().enumerate() {
+    for (index, (title, at)) in of.others.iter().enumerate() {
+        // Another input or output at the same place, or a place already listed.
+        if *at == of.at || of.others[..index].iter().any(|(_, earlier)| earlier == at) {
+            continue;
+        }
         add(
             MistakeKind::OtherPoint,
             format!("it is linearized at another operating point ({title})"),
