@@ -31,9 +31,9 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
 
 fn shown(check: &Check, lab: &SourceText) -> String {
     if check.holds {
-        return format!("ok    {}: {}\n", check.what, check.found);
+        return wrapped(&format!("ok    {}: {}", check.what, check.found));
     }
-    let line = format!("FAIL  {}: {}\n", check.what, check.found);
+    let line = wrapped(&format!("FAIL  {}: {}", check.what, check.found));
     match check.span {
         None => line,
         Some(span) => {
@@ -46,5 +46,53 @@ fn shown(check: &Check, lab: &SourceText) -> String {
             };
             format!("{line}{}\n", finding.render(lab, colour_on_stdout()))
         }
+    }
+}
+
+/// Columns of a line, unless one word is longer.
+const WIDTH: usize = 100;
+const INDENT: &str = "        ";
+
+/// What does not fit goes on indented, so that each check begins a line of its own.
+fn wrapped(text: &str) -> String {
+    let mut lines = String::new();
+    for line in text.lines() {
+        let indent = &line[..line.len() - line.trim_start().len()];
+        let mut width = 0;
+        for (nth, word) in line.trim_start().split(' ').enumerate() {
+            let length = word.chars().count();
+            if nth == 0 {
+                lines.push_str(indent);
+                width = indent.len();
+            } else if width + 1 + length > WIDTH {
+                lines.push('\n');
+                lines.push_str(INDENT);
+                width = INDENT.len();
+            } else {
+                lines.push(' ');
+                width += 1;
+            }
+            lines.push_str(word);
+            width += length;
+        }
+        lines.push('\n');
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_lines_are_wrapped_and_indented() {
+        let word = "abcdefghi";
+        let line = |n: usize| vec![word; n].join(" ");
+        assert_eq!(wrapped("ok    short"), "ok    short\n");
+        assert_eq!(wrapped(&line(10)), format!("{}\n", line(10)));
+        assert_eq!(wrapped(&line(11)), format!("{}\n        {word}\n", line(10)));
+        assert_eq!(wrapped("a\n    b"), "a\n    b\n");
+        let long = "x".repeat(200);
+        assert_eq!(wrapped(&format!("a {long} b")), format!("a\n        {long}\n        b\n"));
     }
 }

@@ -16,7 +16,7 @@ mod transfer_function;
 mod wide;
 
 pub use features::{Extremum, Features, Limit, Shape};
-pub use matrix_exponential::matrix_exponential_response;
+pub use matrix_exponential::{ExponentialResponse, matrix_exponential_response};
 pub use poles::{Pole, RootError, roots};
 pub use response::{InputKind, Mode, Response, ResponseError};
 pub use stability::{Stability, right_half_plane_roots, stability};

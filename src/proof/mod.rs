@@ -79,16 +79,17 @@ fn second_routes(lab: &LabDefinition, reference: &Reference) -> Vec<Check> {
     second_route(lab, reference)
         .into_iter()
         .map(|agreement| Check {
-            found: format!(
-                "{}: {}{}",
-                agreement.routes,
-                match agreement.digits {
-                    d if d.is_infinite() => "exactly equal".to_owned(),
-                    d if agreement.holds() => format!("{d:.1} digits agree"),
+            found: {
+                let digits = match agreement.digits {
+                    d if d.is_infinite() => "equal".to_owned(),
+                    d if agreement.holds() => format!("{d:.1} digits"),
                     d => format!("only {d:.1} digits agree, {:.1} are wanted", agreement.wanted),
-                },
-                if agreement.note.is_empty() { String::new() } else { format!("; {}", agreement.note) }
-            ),
+                };
+                match agreement.note.as_str() {
+                    "" => format!("{digits}, {}", agreement.routes),
+                    note => format!("{digits}, {}; {note}", agreement.routes),
+                }
+            },
             holds: agreement.holds(),
             what: agreement.what,
             span: None,
