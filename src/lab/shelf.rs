@@ -5,7 +5,7 @@ macro_rules! shelf {
 }
 
 /// Labs inside the program: (id, text of the lab file), in the order in which they are listed.
-pub(super) const SHELF: &[(&str, &str)] = shelf!["ee361-lab3", "inverted-pendulum"];
+pub(super) const SHELF: &[(&str, &str)] = shelf!["ee361-lab3", "inverted-pendulum", "dc-motor"];
 
 #[cfg(test)]
 mod tests {

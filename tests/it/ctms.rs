@@ -26,10 +26,9 @@ fn every_printed_digit_is_met() {
         let reference = references.entry(entry.lab).or_insert_with(|| reference(entry.lab));
         for (key, printed, holds) in &entry.printed {
             let path = format!("{}.{key}", entry.place);
-            let times = if key.starts_with("transfer_function") { entry.times } else { 1.0 };
             let computed =
                 values_at(reference, &path).unwrap_or_else(|| panic!("no {path} in {}", entry.lab));
-            let computed = sorted(computed.iter().map(|value| number(value, times)).collect(), key);
+            let computed = sorted(computed.iter().map(|value| number(value, entry.times)).collect(), key);
             let stated = sorted(printed.iter().map(|text| complex(text)).collect(), key);
             let met = computed.len() == stated.len()
                 && computed
