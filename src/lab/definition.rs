@@ -1,7 +1,7 @@
 use super::{AskedFeature, MistakesRule, Points};
-use crate::algebra::Rational;
+use crate::algebra::{Expression, Rational};
 use crate::lti::InputKind;
-use crate::model::{Comparison, Equilibrium, Model};
+use crate::model::{Comparison, Equilibrium, Model, Rest};
 use crate::nonlinear::{Chain, Nonlinearity};
 use crate::prose::Phrase;
 use crate::source::{SourceText, Span};
@@ -54,9 +54,12 @@ pub struct Outcome {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
     pub name: String,
+    /// Of a derived one, what follows from the lab's own values of the others; the nearest `f64` when that is irrational.
     pub value: Rational,
-    /// As typed in the lab file.
+    /// As typed in the lab file; of a derived one, its value.
     pub text: String,
+    /// The formula its value follows from, and the text of it.
+    pub formula: Option<(String, Expression)>,
     pub unit: String,
     pub description: String,
     /// Other values taken as right, exactly, each with its text as typed. A set, never a band.
@@ -77,7 +80,10 @@ pub struct ModelDefinition {
 pub struct OperatingPointDefinition {
     pub id: String,
     pub title: String,
+    /// With the lab's own parameter values.
     pub at: Equilibrium,
+    /// The same for any values of the parameters.
+    pub rest: Rest,
     /// The equilibrium as typed, (name, text): `("theta", "pi")`.
     pub at_text: Vec<(String, String)>,
     pub input: String,

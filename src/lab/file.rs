@@ -96,8 +96,10 @@ pub(super) struct LabFile {
 #[derive(Debug, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ParameterFile {
-    /// A decimal, read exactly.
-    pub value: Text,
+    /// A decimal, read exactly. Give this or `formula`.
+    pub value: Option<Text>,
+    /// What its value follows from, of other parameters, numbers and `pi`: `k^2/(R*b)`. It then has no `accepted` or `mistaken`.
+    pub formula: Option<Text>,
     /// `kg`, `m/s^2`; empty for none.
     #[serde(default)]
     pub unit: String,
@@ -124,6 +126,9 @@ pub(super) struct ModelFile {
     pub inputs: Spanned<Entries<QuantityFile>>,
     /// As many equations as coordinates, `left = right`, as printed on the handout.
     pub equations: Spanned<Vec<Text>>,
+    /// What is watched and is no coordinate, by name.
+    #[serde(default)]
+    pub outputs: Entries<OutputFile>,
     /// Where the system is linearized, by id.
     pub operating_points: Spanned<Entries<OperatingPointFile>>,
 }
@@ -140,18 +145,32 @@ pub(super) struct QuantityFile {
     pub description: String,
 }
 
+/// An output that is no coordinate.
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct OutputFile {
+    /// `m`, `rad/s`; empty for none.
+    #[serde(default)]
+    pub unit: String,
+    /// What it is, in words.
+    #[serde(default)]
+    pub description: String,
+    /// Of coordinates, their derivatives, inputs and parameters: `x1 - x2`, `theta'`.
+    pub formula: Text,
+}
+
 /// An equilibrium and the input and output looked at there.
 #[derive(Debug, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct OperatingPointFile {
     /// Title, one line. Default: the id in words.
     pub title: Option<String>,
-    /// Coordinates and inputs at rest: numbers, `pi`, and formulas of them; what is left out is 0.
+    /// Coordinates and inputs at rest: formulas of numbers, `pi` and parameters; what is left out is 0.
     #[serde(default)]
     pub at: Entries<Text>,
     /// The input that is varied.
     pub input: Text,
-    /// The coordinate that is watched.
+    /// The coordinate or output that is watched.
     pub output: Text,
     /// How the linear model is held against the nonlinear equations. Default: it is not.
     pub comparison: Option<ComparisonFile>,

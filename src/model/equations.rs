@@ -1,3 +1,4 @@
+use super::DerivedParameters;
 use crate::algebra::{Expression, ExpressionError, NodeKind};
 use crate::nonlinear::OdeError;
 
@@ -30,7 +31,11 @@ pub struct Model {
     pub coordinates: Vec<Coordinate>,
     pub inputs: Vec<String>,
     pub parameters: Vec<String>,
+    /// Those of the parameters that follow from the others.
+    pub derived: DerivedParameters,
     pub equations: Vec<Equation>,
+    /// Those of the coordinates that are but outputs, the last ones: their equations, the last ones, are `name = formula`.
+    pub outputs: Vec<String>,
 }
 
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -53,6 +58,15 @@ pub enum ModelError {
     UnknownName { name: String, known: String },
     #[error("equation {equation} does not balance at this point: {left} on the left, {right} on the right")]
     NotAnEquilibrium { equation: usize, left: String, right: String },
+    #[error("the formulas go in a circle: {}", in_a_row(names))]
+    Circle { names: Vec<String> },
+    #[error("the parameter `{name}`: {error}")]
+    Parameter { name: String, error: Box<ModelError> },
+    #[error("`{name}` at rest: {error}")]
+    Rest { name: String, error: Box<ModelError> },
+    /// `primes` are those that the equations have.
+    #[error("the output `{output}` is of `{symbol}`, but the equations go no further than `{highest}`")]
+    OutputOrder { output: String, symbol: String, highest: String },
     #[error("the highest derivatives cannot be solved for: their matrix is singular at this point")]
     Singular,
     #[error("the output follows a derivative of the input: its transfer function has more zeros than poles")]
@@ -68,6 +82,11 @@ pub enum ModelError {
     NotLinear { equation: usize, symbol: String },
     #[error("the equations cannot be followed after an impulse of {push}: {source}")]
     Simulation { push: f64, source: OdeError },
+}
+
+/// `a` needs `b` needs `a`.
+fn in_a_row(names: &[String]) -> String {
+    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(" needs ")
 }
 
 /// The most often a coordinate or an input is differentiated.
@@ -86,7 +105,14 @@ impl Model {
         if equations.len() != coordinates.len() {
             return Err(ModelError::Count { equations: equations.len(), coordinates: coordinates.len() });
         }
-        let mut model = Self { coordinates, inputs, parameters, equations: Vec::new() };
+        let mut model = Self {
+            coordinates,
+            inputs,
+            parameters,
+            derived: DerivedParameters::default(),
+            equations: Vec::new(),
+            outputs: Vec::new(),
+        };
         model.check_declared_names()?;
         for (i, text) in equations.iter().enumerate() {
             let equation = model.read(text.as_ref()).map_err(|e| match e {
@@ -134,13 +160,13 @@ impl Model {
         self.coordinates.iter().map(|c| (c.name.clone(), self.order_of(&c.name))).collect()
     }
 
-    fn names(&self) -> Vec<&str> {
+    pub(super) fn names(&self) -> Vec<&str> {
         let coordinates = self.coordinates.iter().map(|c| c.name.as_str());
         let rest = self.inputs.iter().chain(&self.parameters).map(String::as_str);
         coordinates.chain(rest).collect()
     }
 
-    fn check_declared_names(&self) -> Result<(), ModelError> {
+    pub(super) fn check_declared_names(&self) -> Result<(), ModelError> {
         let names = self.names();
         for (i, name) in names.iter().enumerate() {
             let is_name = matches!(

@@ -1,4 +1,4 @@
-use super::{Exact, Model, ModelError};
+use super::{Exact, Model, ModelError, ParameterValues, Rest};
 use crate::algebra::{Expression, NodeKind, Rational, significant};
 use std::collections::BTreeMap;
 
@@ -15,19 +15,7 @@ impl Equilibrium {
         parameters: &BTreeMap<String, Rational>,
         pairs: &[(String, String)],
     ) -> Result<Self, ModelError> {
-        let coordinates = model.coordinates.iter().map(|c| c.name.as_str());
-        let known: Vec<&str> = coordinates.chain(model.inputs.iter().map(String::as_str)).collect();
-        let mut values: BTreeMap<String, Exact> =
-            known.iter().map(|name| ((*name).to_owned(), Exact::zero())).collect();
-        for (name, text) in pairs {
-            if !known.contains(&name.as_str()) {
-                let list: Vec<String> = known.iter().map(|n| format!("`{n}`")).collect();
-                let known = format!("these are {}", list.join(", "));
-                return Err(ModelError::UnknownName { name: name.clone(), known });
-            }
-            values.insert(name.clone(), read_value(name, text, parameters)?);
-        }
-        Ok(Self { values })
+        Rest::parse(model, pairs)?.at(model, parameters)
     }
 
     /// The value of a coordinate, its derivatives (all 0) or an input.
@@ -38,6 +26,10 @@ impl Equilibrium {
 
     /// Errors unless every equation balances: exactly where the numbers are exact, else within 1e-9 of its terms.
     pub fn check(&self, model: &Model, parameters: &BTreeMap<String, Rational>) -> Result<(), ModelError> {
+        self.balances(model, &model.derived.values(parameters)?)
+    }
+
+    pub(super) fn balances(&self, model: &Model, parameters: &ParameterValues) -> Result<(), ModelError> {
         let lookup = |name: &str, primes: u8| self.lookup(parameters, name, primes);
         for (i, equation) in model.equations.iter().enumerate() {
             let left = Exact::evaluate(&equation.left, &lookup)?;
@@ -60,34 +52,14 @@ impl Equilibrium {
     }
 
     /// The value at rest of any name in the equations.
-    pub(super) fn lookup(
-        &self,
-        parameters: &BTreeMap<String, Rational>,
-        name: &str,
-        primes: u8,
-    ) -> Option<Exact> {
-        let parameter = || parameters.get(name).filter(|_| primes == 0).cloned().map(Exact::rational);
+    pub(super) fn lookup(&self, parameters: &ParameterValues, name: &str, primes: u8) -> Option<Exact> {
+        let parameter = || parameters.get(name).filter(|_| primes == 0).cloned();
         self.value(name, primes).or_else(parameter)
     }
 }
 
 /// Of the sum of the sizes of an equation's terms.
 const TOLERANCE: f64 = 1e-9;
-
-fn read_value(name: &str, text: &str, parameters: &BTreeMap<String, Rational>) -> Result<Exact, ModelError> {
-    let names: Vec<&str> = parameters.keys().map(String::as_str).collect();
-    let read = Expression::parse(text).and_then(|e| e.check_names(&names).map(|()| e));
-    let expression = read.map_err(|e| ModelError::Value {
-        name: name.to_owned(),
-        start: e.start,
-        end: e.end,
-        message: e.message,
-        help: e.help,
-    })?;
-    Exact::evaluate(&expression, &|name, primes| {
-        parameters.get(name).filter(|_| primes == 0).cloned().map(Exact::rational)
-    })
-}
 
 /// Σ |term| of a sum.
 fn size_of_terms(node: &Expression, lookup: &dyn Fn(&str, u8) -> Option<Exact>) -> Result<f64, ModelError> {
@@ -152,7 +124,7 @@ mod tests {
                 "`phi` is neither a coordinate nor an input of the model; these are `theta`, `u`",
             ),
             (&[("theta", "po")], "the value of `theta`: `po` is not a name we know"),
-            (&[("theta", "1/0")], "`division by zero` is not defined"),
+            (&[("theta", "1/0")], "`theta` at rest: `division by zero` is not defined"),
         ] {
             let error = at(pairs).unwrap_err().to_string();
             assert!(error.starts_with(message), "{pairs:?}: {error}");

@@ -1,5 +1,5 @@
 use super::exact::{Purpose, evaluate};
-use super::{Equilibrium, Model, ModelError};
+use super::{Equilibrium, Model, ModelError, ParameterValues};
 use crate::algebra::{Matrix, Polynomial, Rational, polynomial_determinant};
 use crate::lti::{StateSpace, TransferFunction};
 use std::collections::BTreeMap;
@@ -33,8 +33,9 @@ pub fn linearize(
     output: &str,
 ) -> Result<Linearization, ModelError> {
     let (input, output) = places(model, input, output)?;
-    at.check(model, parameters)?;
-    let slopes = Slopes::at(model, parameters, at)?;
+    let parameters = model.derived.values(parameters)?;
+    at.balances(model, &parameters)?;
+    let slopes = Slopes::at(model, &parameters, at)?;
     let uncancelled = slopes.eliminate(input, output)?;
     let cancelled = uncancelled.num.gcd(&uncancelled.den);
     let transfer_function = TransferFunction {
@@ -55,7 +56,7 @@ pub fn linearize(
 /// The transfer function alone, nothing cancelled, of small deviations from `at`, whether or not the equations balance there.
 pub(super) fn about(
     model: &Model,
-    parameters: &BTreeMap<String, Rational>,
+    parameters: &ParameterValues,
     at: &Equilibrium,
     input: &str,
     output: &str,
@@ -83,11 +84,7 @@ struct Slopes {
 }
 
 impl Slopes {
-    fn at(
-        model: &Model,
-        parameters: &BTreeMap<String, Rational>,
-        at: &Equilibrium,
-    ) -> Result<Self, ModelError> {
+    fn at(model: &Model, parameters: &ParameterValues, at: &Equilibrium) -> Result<Self, ModelError> {
         let highest = model.highest_derivatives();
         let mut exact = true;
         let mut slope = |residual: &crate::algebra::Expression, name: &str, primes: u8| {

@@ -7,7 +7,10 @@ mod exact;
 mod linearization;
 mod mistakes;
 mod motion;
+mod outputs;
+mod parameters;
 mod program;
+mod rest;
 mod small_signal;
 
 pub use compare::{Comparison, ComparisonRun, ComparisonSample, compare};
@@ -16,4 +19,6 @@ pub use equilibrium::Equilibrium;
 pub use exact::Exact;
 pub use linearization::{Linearization, linearize};
 pub use mistakes::{Derivation, Estimates, Mistake, MistakeKind, Pair, Place, RealFunction, RealPolynomial};
+pub use parameters::{DerivedParameter, DerivedParameters, ParameterValues};
+pub use rest::{Rest, RestValue};
 pub use small_signal::{Departure, SmallSignal};

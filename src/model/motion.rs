@@ -50,6 +50,7 @@ impl Motion {
         at: &Equilibrium,
         output: &str,
     ) -> Result<Self, ModelError> {
+        let parameters = &model.derived.values(parameters)?;
         let states = model.states();
         let highest = model.highest_derivatives();
         let meaning = |name: &str, primes: u8| {

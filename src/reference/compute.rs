@@ -114,7 +114,9 @@ fn linear_reference(
     point: &OperatingPointDefinition,
     choice: &ParameterChoice,
 ) -> Result<LinearReference, ReferenceError> {
-    let linearization = linearize(&definition.model, &choice.values, &point.at, &point.input, &point.output)
+    let at = point.rest.at(&definition.model, &choice.values);
+    let linearization = at
+        .and_then(|at| linearize(&definition.model, &choice.values, &at, &point.input, &point.output))
         .map_err(|error| model_error(definition, point, error))?;
     let root_error = |error| ReferenceError::Roots { point: name(definition, point), error };
     let response_error = |error| ReferenceError::Response { point: name(definition, point), error };

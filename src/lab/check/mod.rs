@@ -4,7 +4,11 @@ mod cover;
 mod criteria;
 mod expectations;
 mod mistakes;
+#[cfg(test)]
+mod model_tests;
 mod models;
+mod operating_points;
+mod parameters;
 mod questions;
 mod scalars;
 #[cfg(test)]
@@ -15,7 +19,7 @@ mod tests;
 mod usual;
 
 use super::file::{Entries, LabFile, QuantityFile, Spanned, Text};
-use super::{LabDefinition, LabErrors, Outcome, Parameter, SystemRef, defaults, model_answer, read, sheet};
+use super::{LabDefinition, LabErrors, Outcome, SystemRef, defaults, model_answer, read, sheet};
 use crate::source::{Finding, Node, SourceText, Span, Value};
 
 impl LabDefinition {
@@ -73,8 +77,12 @@ impl Names<'_> {
         position.and_then(|i| self.units.get(i)).copied().unwrap_or_default()
     }
 
+    /// `model.operating_point`, or a model alone that has but one operating point.
     fn system(&self, path: &str) -> Option<SystemRef> {
-        let known = self.systems.iter().find(|s| *s == path)?;
+        let of_the_model = |s: &&String| s.strip_prefix(path).is_some_and(|rest| rest.starts_with('.'));
+        let mut points = self.systems.iter().filter(of_the_model);
+        let only = points.next().filter(|_| points.next().is_none());
+        let known = self.systems.iter().find(|s| *s == path).or(only)?;
         let (model, operating_point) = known.split_once('.')?;
         Some(SystemRef { model: model.to_owned(), operating_point: operating_point.to_owned() })
     }
@@ -109,7 +117,9 @@ impl Checker<'_> {
                 .iter()
                 .flat_map(|(_, m)| {
                     m.operating_points.value.0.iter().map(move |(_, point)| {
-                        (unit_of(&m.coordinates.value, &point.output), unit_of(&m.inputs.value, &point.input))
+                        let watched = operating_points::units(m).into_iter();
+                        let output = watched.into_iter().find(|(name, _)| *name == point.output.value);
+                        (output.map_or("", |(_, unit)| unit), unit_of(&m.inputs.value, &point.input))
                     })
                 })
                 .collect(),
@@ -123,7 +133,7 @@ impl Checker<'_> {
         });
         let outcomes: Vec<Outcome> = outcomes.collect();
         let parameters = self.parameters(file);
-        let models = self.models(file, parameters.as_deref());
+        let models = self.models(file, parameters.as_ref());
         let simulations = self.simulations(file, &names);
         let given = self.defaults(&file.tolerances, &file.follow_through);
         let questions = self.questions(file, &names, &given);
@@ -132,8 +142,9 @@ impl Checker<'_> {
         let seen = observed.as_ref().map(|rows| rows.iter().map(|row| row.points).sum());
         let cover = self.cover(file.cover.as_ref(), worth, seen);
         let expectations = self.expectations(&file.expect, &names);
-        let mistakes = self.mistakes(&file.mistakes, models.as_deref(), parameters.as_deref());
-        let (questions, parameters) = (questions?, parameters?);
+        let list = parameters.as_ref().map(|parameters| parameters.list.as_slice());
+        let mistakes = self.mistakes(&file.mistakes, models.as_deref(), list);
+        let (questions, parameters) = (questions?, parameters?.list);
         let title = defaults::title(file.title.as_ref(), &file.lab.value);
         let sheet = sheet::sheet(&file.lab.value, &title, &questions, &parameters);
         let model_answer = self.model_answer(file, tree, &sheet)?;
@@ -156,54 +167,6 @@ impl Checker<'_> {
             sheet,
             text: SourceText::default(),
         })
-    }
-
-    fn parameters(&mut self, file: &LabFile) -> Option<Vec<Parameter>> {
-        let parameters = file.parameters.0.iter().map(|(name, p)| {
-            self.symbol(name, "parameter");
-            let value = self.number(&p.value);
-            let accepted = p.accepted.iter().map(|text| {
-                let other = self.number(text)?;
-                if Some(&other) == value.as_ref() {
-                    let message = format!("`{}` accepts its own value `{}` again", name.value, text.value);
-                    self.error(
-                        "lab.accepted",
-                        span(text),
-                        message,
-                        Some("list only the other values".into()),
-                    );
-                }
-                Some((text.value.clone(), other))
-            });
-            let accepted: Vec<_> = accepted.collect();
-            let mistaken: Vec<_> = p
-                .mistaken
-                .iter()
-                .map(|text| {
-                    let other = self.number(text)?;
-                    let right = Some(&other) == value.as_ref()
-                        || accepted.iter().flatten().any(|(_, value)| *value == other);
-                    if right {
-                        let message =
-                            format!("`{}` lists `{}` as mistaken, but it is right", name.value, text.value);
-                        let help = "list only values that are wrong".to_owned();
-                        self.error("lab.mistakes", span(text), message, Some(help));
-                    }
-                    Some((text.value.clone(), other))
-                })
-                .collect();
-            Some(Parameter {
-                name: name.value.clone(),
-                value: value?,
-                text: p.value.value.clone(),
-                unit: p.unit.clone(),
-                description: p.description.trim().to_owned(),
-                accepted: accepted.into_iter().collect::<Option<_>>()?,
-                mistaken: mistaken.into_iter().collect::<Option<_>>()?,
-            })
-        });
-        let parameters: Vec<_> = parameters.collect();
-        parameters.into_iter().collect()
     }
 
     fn model_answer(

@@ -118,7 +118,10 @@ impl Checker<'_> {
             text: file.text.trim().to_owned(),
             points: points?,
             outcomes: file.outcomes.iter().map(|o| o.value.clone()).collect(),
-            about: file.about.as_ref().map(|about| about.value.clone()),
+            about: file.about.as_ref().map(|about| match names.system(&about.value) {
+                Some(system) => system.to_string(),
+                None => about.value.clone(),
+            }),
             fields,
             criteria,
         })
@@ -171,6 +174,9 @@ impl Checker<'_> {
     }
 
     fn about(&mut self, about: &Text, names: &Names<'_>) {
+        if names.system(&about.value).is_some() {
+            return;
+        }
         let known: Vec<&str> =
             names.systems.iter().map(String::as_str).chain(names.simulations.iter().copied()).collect();
         self.one_of(about, "operating point or simulation", &known);

@@ -109,7 +109,7 @@ fn a_wrong_lab_says_where_and_what_to_do() {
         "        output: theta",
         "        output: thata",
         "thata",
-        "there is no coordinate `thata`",
+        "there is no coordinate or output `thata`",
         "did you mean `theta`?",
     );
     check("        input: F", "        input: u", "u", "there is no input `u`", "known: `F`");
@@ -284,10 +284,10 @@ fn a_wrong_lab_says_where_and_what_to_do() {
     );
     check(
         "at: {theta: pi}",
-        "at: {theta: pi*l}",
-        "l",
-        "`l` cannot stand here: a place of rest is made of numbers and `pi`",
-        "write its value",
+        "at: {theta: pi*L}",
+        "L",
+        "`L` is not a name we know",
+        "did you mean `l`? the names are `M`, `b`, `m`, `l`, `I`, `g`",
     );
 
     // Points.

@@ -33,12 +33,14 @@ pub(super) fn mistakes(of: &Derivation) -> Vec<Mistake> {
 
 fn turned(of: &Derivation) -> Vec<Call<'_>> {
     let mut calls = Vec::new();
-    for (index, equation) in of.model.equations.iter().enumerate() {
+    let Ok((parameters, at)) = of.place(&of.parameters, &[]) else { return calls };
+    let lookup = |name: &str, primes: u8| at.lookup(&parameters, name, primes);
+    for (index, equation) in of.equations() {
         let mut nodes = Vec::new();
         collect(&equation.left, &mut nodes);
         collect(&equation.right, &mut nodes);
         for (node, function, argument) in nodes {
-            let Some(cosine) = cosine(of, argument).filter(|value| *value < 0.0) else { continue };
+            let Some(cosine) = cosine(argument, &lookup).filter(|value| *value < 0.0) else { continue };
             let text = equation.text.get(node.start..node.end).unwrap_or_default();
             let place = Place { equation: index, start: node.start, end: node.end };
             calls.push(Call { place, text, function, cosine });
@@ -104,9 +106,8 @@ impl Call<'_> {
 }
 
 /// Of the argument at the operating point: the value of a cos, the slope of a sin.
-fn cosine(of: &Derivation, argument: &Expression) -> Option<f64> {
-    let lookup = |name: &str, primes: u8| of.at.lookup(&of.parameters, name, primes);
-    Exact::evaluate(argument, &lookup).ok().map(|value| value.to_f64().cos())
+fn cosine(argument: &Expression, lookup: &dyn Fn(&str, u8) -> Option<Exact>) -> Option<f64> {
+    Exact::evaluate(argument, lookup).ok().map(|value| value.to_f64().cos())
 }
 
 fn collect<'a>(node: &'a Expression, calls: &mut Vec<(&'a Expression, Function, &'a Expression)>) {

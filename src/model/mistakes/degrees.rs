@@ -32,10 +32,10 @@ pub(super) fn mistakes(of: &Derivation) -> Vec<Mistake> {
             Rational::ONE / half_turn,
         );
     }
+    let Some(at) = of.at() else { return all };
     let angles = of.model.coordinates.iter().filter(|coordinate| is_angle(&coordinate.unit));
     for name in angles.map(|coordinate| &coordinate.name) {
-        let Some(degrees) = of.at.values.get(name).filter(|value| !value.is_zero()).and_then(in_degrees)
-        else {
+        let Some(degrees) = at.values.get(name).filter(|value| !value.is_zero()).and_then(in_degrees) else {
             continue;
         };
         let shown = significant(degrees.to_f64(), 4);

@@ -82,7 +82,7 @@ impl ParameterEdit {
         }
     }
 
-    fn names(&self) -> Vec<&String> {
+    pub fn names(&self) -> Vec<&String> {
         match self {
             Self::Swapped(first, second) => vec![first, second],
             Self::Scaled(name, _) | Self::Set(name, _) => vec![name],

@@ -5,7 +5,7 @@ use crate::algebra::{Expression, NodeKind};
 /// Each parameter that stands as a factor in a product left out, and each of its powers taken as the parameter itself.
 pub(super) fn mistakes(of: &Derivation) -> Vec<Mistake> {
     let mut all = Vec::new();
-    for (index, equation) in of.model.equations.iter().enumerate() {
+    for (index, equation) in of.equations() {
         let number = index + 1;
         let text = |node: &Expression| equation.text.get(node.start..node.end).unwrap_or_default().trim();
         let mut found = Vec::new();

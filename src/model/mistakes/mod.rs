@@ -154,7 +154,7 @@ impl Mistake {
 mod tests {
     use super::*;
     use crate::algebra::{parse_decimal, polynomial_text};
-    use crate::model::{Coordinate, Equilibrium, Model};
+    use crate::model::{Coordinate, Model, Rest};
     use std::collections::BTreeMap;
 
     /// With a = 2, b = 3, l = 5, k = 7; the rows are expected among the mistakes.
@@ -174,14 +174,12 @@ mod tests {
         let units: BTreeMap<_, _> = [("a", "kg"), ("b", "N s/m"), ("l", "m"), ("k", "kg")]
             .map(|(name, unit)| (name.to_owned(), unit.to_owned()))
             .into();
-        let point = |text: &str| {
-            Equilibrium::parse(&model, &parameters, &[("x".to_owned(), text.to_owned())]).unwrap()
-        };
+        let point = |text: &str| Rest::parse(&model, &[("x".to_owned(), text.to_owned())]).unwrap();
         let (here, top) = (point(at), point("pi"));
         Derivation {
             units,
             mistaken: [("k".to_owned(), vec![("8".to_owned(), parse_decimal("8").unwrap())])].into(),
-            at: here,
+            rest: here,
             others: vec![("At the top".to_owned(), top)],
             input: "F".to_owned(),
             input_unit: "N".to_owned(),
@@ -269,7 +267,7 @@ mod tests {
         let others = |at: &str, others: &[&str]| {
             let mut of = derivation("m", "F = a*x'' + b*x' + k*sin(x)", at);
             let top = of.others.remove(0).1;
-            let bottom = derivation("m", "F = a*x'' + b*x' + k*sin(x)", "0").at;
+            let bottom = derivation("m", "F = a*x'' + b*x' + k*sin(x)", "0").rest;
             let place = |title: &&str| if title.starts_with("top") { top.clone() } else { bottom.clone() };
             of.others = others.iter().map(|title| ((*title).to_owned(), place(title))).collect();
             let listed = of.mistakes().into_iter().filter(|m| m.kind == MistakeKind::OtherPoint);

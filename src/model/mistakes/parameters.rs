@@ -83,7 +83,10 @@ pub(super) fn mistakes(of: &Derivation) -> Vec<Mistake> {
     all
 }
 
+/// Whether anything depends on it: an equation, or the place of rest.
 fn is_used(of: &Derivation, name: &str) -> bool {
-    let sides = of.model.equations.iter().flat_map(|equation| [&equation.left, &equation.right]);
-    sides.flat_map(crate::algebra::Expression::symbols).any(|symbol| symbol.name == name)
+    let sides = of.equations().flat_map(|(_, equation)| [&equation.left, &equation.right]);
+    let mut symbols = sides.flat_map(crate::algebra::Expression::symbols);
+    symbols.any(|symbol| symbol.name == name || of.model.derived.depends(&symbol.name, name))
+        || of.rest.depends_on(&of.model, name)
 }

@@ -5,9 +5,17 @@ use crate::algebra::{Expression, NodeKind};
 /// Every summand of every equation, inside parentheses too: its sign turned, and dropped.
 pub(super) fn mistakes(of: &Derivation) -> Vec<Mistake> {
     let mut all = Vec::new();
-    for (index, equation) in of.model.equations.iter().enumerate() {
+    for (index, equation) in of.equations() {
         let text = |node: &Expression| equation.text.get(node.start..node.end).unwrap_or_default().trim();
-        for term in terms(&equation.left).into_iter().chain(terms(&equation.right)) {
+        let mut found = terms(&equation.left);
+        found.extend(terms(&equation.right));
+        if of.model.output_of(index).is_some() {
+            // `y = x`: what can be done to `y`, or to `x` where it is alone, is done to the whole function.
+            let outer = found.iter().filter(|term| term.sum.is_none()).count();
+            let left = equation.left.end;
+            found.retain(|term| term.node.start >= left && (outer > 2 || term.sum.is_some()));
+        }
+        for term in found {
             let (number, name) = (index + 1, text(term.node));
             let place = Place { equation: index, start: term.node.start, end: term.node.end };
             let what = match term.sum {

@@ -7,11 +7,14 @@ pub(super) fn mistakes(of: &Derivation) -> Vec<Mistake> {
     let mut add = |kind, words: String, change: String, edit: Edit| {
         all.push(Mistake { kind, words, change, places: Vec::new(), edit });
     };
-    for (index, (title, at)) in of.others.iter().enumerate() {
+    let mut listed = vec![of.at()];
+    for (index, (title, other)) in of.others.iter().enumerate() {
         // Another input or output at the same place, or a place already listed.
-        if *at == of.at || of.others[..index].iter().any(|(_, earlier)| earlier == at) {
+        let place = other.at(&of.model, &of.parameters).ok();
+        if place.is_none() || listed.contains(&place) {
             continue;
         }
+        listed.push(place);
         add(
             MistakeKind::OtherPoint,
             format!("it is linearized at another operating point ({title})"),

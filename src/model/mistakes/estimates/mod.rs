@@ -188,7 +188,7 @@ impl Estimates {
 mod tests {
     use super::*;
     use crate::algebra::parse_decimal;
-    use crate::model::{Coordinate, Equilibrium, Model};
+    use crate::model::{Coordinate, Model, Rest};
 
     /// Coordinates and unit, parameters, equations, and the point.
     type Plant<'a> = (
@@ -244,8 +244,8 @@ mod tests {
                 .map(|(name, _, unit)| ((*name).to_owned(), (*unit).to_owned()))
                 .collect(),
             mistaken: [("l".to_owned(), vec![("0.5".to_owned(), parse_decimal("0.5").unwrap())])].into(),
-            at: Equilibrium::parse(&model, &values, &pairs).unwrap(),
-            others: vec![("Elsewhere".to_owned(), Equilibrium::parse(&model, &values, &[]).unwrap())],
+            rest: Rest::parse(&model, &pairs).unwrap(),
+            others: vec![("Elsewhere".to_owned(), Rest::default())],
             input: "F".to_owned(),
             input_unit: String::new(),
             output: output.name.clone(),

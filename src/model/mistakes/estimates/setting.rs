@@ -1,8 +1,9 @@
 use super::Estimates;
 use super::slopes::{Slopes, Variant};
-use crate::algebra::to_f64;
 use crate::model::mistakes::edit::Edit;
 use crate::model::mistakes::real::{Entry, RealFunction, determinant};
+use crate::model::{Equilibrium, Exact};
+use std::collections::BTreeMap;
 
 /// Parameters and operating point in numbers, and the slopes of every summand with them.
 pub(super) struct Setting {
@@ -29,25 +30,15 @@ pub(super) struct Ports {
 
 impl Estimates {
     pub(super) fn setting(&self, choice: usize, mistakes: &[usize]) -> Setting {
-        let mut parameters = self.choices[choice].clone();
-        let mut at = self.derivation.at.clone();
-        for place in mistakes {
-            match &self.mistakes[*place].edit {
-                Edit::Parameter(edit) => edit.apply(&mut parameters),
-                Edit::Point(other) => {
-                    if let Some((_, other)) = self.derivation.others.get(*other) {
-                        at = other.clone();
-                    }
-                }
-                Edit::Rest(name, value) => {
-                    at.values.insert(name.clone(), value.clone());
-                }
-                _ => {}
-            }
-        }
+        let edits: Vec<&Edit> = mistakes.iter().map(|place| &self.mistakes[*place].edit).collect();
+        // Where nothing rests, no slope is a number.
+        let (parameters, at) = self
+            .derivation
+            .place(&self.choices[choice], &edits)
+            .unwrap_or_else(|_| (BTreeMap::new(), Equilibrium { values: BTreeMap::new() }));
         let value = |name: &String| {
-            let rest = || at.values.get(name).map(crate::model::Exact::to_f64);
-            parameters.get(name).map(to_f64).or_else(rest).unwrap_or(f64::NAN)
+            let known = parameters.get(name).or_else(|| at.values.get(name));
+            known.map_or(f64::NAN, Exact::to_f64)
         };
         let values: Vec<f64> = self.symbols().iter().map(value).collect();
         let mut stack = Vec::new();

@@ -1,0 +1,149 @@
+use super::parameters::{Parameters, reason};
+use super::{Checker, span};
+use crate::lab::file::{ComparisonFile, ModelFile, OperatingPointFile, Text};
+use crate::lab::{OperatingPointDefinition, defaults};
+use crate::model::{self, Comparison, Equilibrium, Model, ModelError, Rest, RestValue};
+use std::collections::BTreeMap;
+
+impl Checker<'_> {
+    /// `None` when it cannot be built, or the model or the parameters could not.
+    pub(super) fn operating_point(
+        &mut self,
+        id: &Text,
+        file: &OperatingPointFile,
+        model: &ModelFile,
+        parameter_names: &[&str],
+        checked: Option<(&Model, &Parameters)>,
+    ) -> Option<OperatingPointDefinition> {
+        let coordinates: Vec<&str> = names(&model.coordinates.value.0);
+        let inputs: Vec<&str> = names(&model.inputs.value.0);
+        let both: Vec<&str> = coordinates.iter().chain(&inputs).copied().collect();
+        let before = self.findings.len();
+        let mut entries = Vec::new();
+        for (name, text) in &file.at.0 {
+            self.at_rest(name, &both, &names(&model.outputs.0));
+            if let Some(value) = self.rest_value(text, parameter_names) {
+                entries.push((name.value.clone(), value));
+            }
+        }
+        let input = self.one_of(&file.input, "input", &inputs);
+        let watched: Vec<(&str, &str)> = units(model);
+        let known: Vec<&str> = watched.iter().map(|(name, _)| *name).collect();
+        let output = self.one_of(&file.output, "coordinate or output", &known);
+        let comparison = match &file.comparison {
+            Some(comparison) => self.comparison(comparison).map(Some),
+            None => Some(None),
+        };
+        let (model_is, parameters) = checked?;
+        if self.findings.len() > before {
+            return None;
+        }
+        let rest = Rest::new(entries);
+        let at = self.balance(id, file, model_is, parameters, &rest)?;
+        Some(OperatingPointDefinition {
+            id: id.value.clone(),
+            title: defaults::title(file.title.as_ref(), &id.value),
+            at,
+            rest,
+            at_text: file.at.0.iter().map(|(name, text)| (name.value.clone(), text.value.clone())).collect(),
+            input: file.input.value.clone(),
+            input_unit: model.inputs.value.0[input?].1.unit.clone(),
+            output: file.output.value.clone(),
+            output_unit: watched[output?].1.to_owned(),
+            comparison: comparison?,
+            span: span(id),
+        })
+    }
+
+    fn at_rest(&mut self, name: &Text, known: &[&str], outputs: &[&str]) {
+        if outputs.contains(&name.value.as_str()) {
+            let message = format!("`{}` is an output: where it rests follows from its formula", name.value);
+            self.error("lab.equilibrium", span(name), message, Some("leave it out".to_owned()));
+        } else {
+            self.one_of(name, "coordinate or input", known);
+        }
+    }
+
+    /// A coordinate or an input at rest.
+    fn rest_value(&mut self, text: &Text, parameters: &[&str]) -> Option<RestValue> {
+        self.formula("lab.equilibrium", text, parameters).map(RestValue::Formula)
+    }
+
+    fn comparison(&mut self, comparison: &ComparisonFile) -> Option<Comparison> {
+        let horizon_s = self.positive(&comparison.horizon_s, "a horizon");
+        let departure = self.positive(&comparison.departure, "a departure");
+        let pushes: Vec<Option<f64>> = comparison
+            .pushes
+            .value
+            .iter()
+            .map(|text| {
+                let push = self.float(text)?;
+                if push == 0.0 {
+                    self.error("lab.number", span(text), "a push of 0 moves nothing", None);
+                }
+                Some(push)
+            })
+            .collect();
+        if pushes.is_empty() {
+            self.error("lab.number", span(&comparison.pushes), "at least one push is needed", None);
+        }
+        Some(Comparison {
+            horizon_s: horizon_s?,
+            departure: departure?,
+            pushes: pushes.into_iter().collect::<Option<_>>()?,
+        })
+    }
+
+    /// Nothing may move at the operating point, and the equations must be solvable for the accelerations there.
+    fn balance(
+        &mut self,
+        id: &Text,
+        file: &OperatingPointFile,
+        model: &Model,
+        parameters: &Parameters,
+        rest: &Rest,
+    ) -> Option<Equilibrium> {
+        let values: BTreeMap<_, _> =
+            parameters.list.iter().map(|p| (p.name.clone(), p.value.clone())).collect();
+        let at = rest.at(model, &values).and_then(|at| {
+            model::linearize(model, &values, &at, &file.input.value, &file.output.value)?;
+            Ok(at)
+        });
+        let error = match at {
+            Ok(at) => return Some(at),
+            Err(error) => error,
+        };
+        let typed = |name: &String| {
+            let own = file.at.0.iter().find(|(known, _)| known.value == *name);
+            own.map(|(_, text)| span(text))
+        };
+        let first = file.at.0.first().map_or(span(id), |(_, text)| span(text));
+        let (place, message, help) = match &error {
+            ModelError::NotAnEquilibrium { .. } => (
+                first,
+                error.to_string(),
+                Some("give the values of coordinates and inputs at which nothing moves".to_owned()),
+            ),
+            ModelError::Rest { name, error } => (
+                typed(name).unwrap_or(first),
+                format!("`{name}` has no value at rest: {}", reason(error)),
+                None,
+            ),
+            _ => (first, error.to_string(), None),
+        };
+        self.error("lab.equilibrium", place, message, help);
+        None
+    }
+}
+
+fn names<T>(entries: &[(Text, T)]) -> Vec<&str> {
+    entries.iter().map(|(name, _)| name.value.as_str()).collect()
+}
+
+/// What can be watched, each with its unit: coordinates, then outputs.
+pub(super) fn units(model: &ModelFile) -> Vec<(&str, &str)> {
+    let coordinates = model.coordinates.value.0.iter();
+    let coordinates = coordinates.map(|(name, quantity)| (name.value.as_str(), quantity.unit.trim()));
+    let outputs = model.outputs.0.iter();
+    coordinates.chain(outputs.map(|(name, output)| (name.value.as_str(), output.unit.trim()))).collect()
+}
