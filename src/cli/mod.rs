@@ -5,6 +5,7 @@ mod grade;
 mod new;
 mod outcome;
 mod reference;
+mod schema;
 mod verify;
 
 use clap::{Parser, Subcommand};
@@ -25,6 +26,7 @@ enum Verb {
     Grade(grade::Arguments),
     Verify(verify::Arguments),
     Reference(reference::Arguments),
+    Schema(schema::Arguments),
 }
 
 /// Runs the program on the process's own arguments.
@@ -37,6 +39,7 @@ pub fn main() -> ExitCode {
         Verb::Grade(arguments) => grade::run(&arguments),
         Verb::Verify(arguments) => verify::run(&arguments),
         Verb::Reference(arguments) => reference::run(&arguments),
+        Verb::Schema(arguments) => schema::run(&arguments),
     };
     match done {
         Ok(code) => code,

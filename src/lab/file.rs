@@ -1,5 +1,6 @@
 //! The lab file as typed: serde mirrors of the YAML, nothing checked yet. Each field's comment is its manual.
 
+use super::schema;
 pub(super) use super::spanned::Spanned;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{self, Deserialize, Deserializer, IgnoredAny, MapAccess, Visitor};
@@ -44,7 +45,7 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Entries<T> {
 }
 
 /// A whole lab file.
-#[derive(Debug, serde::Deserialize)]
+#[derive(Debug, schemars::JsonSchema, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct LabFile {
     /// The lab's id: lower-case letters, digits, `-` and `_`. Answer files name it.
@@ -93,7 +94,7 @@ pub(super) struct LabFile {
 }
 
 /// A physical parameter.
-#[derive(Debug, serde::Deserialize)]
+#[derive(Debug, schemars::JsonSchema, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ParameterFile {
     /// A decimal, read exactly. Give this or `formula`.
@@ -115,7 +116,7 @@ pub(super) struct ParameterFile {
 }
 
 /// A system given by its equations of motion.
-#[derive(Debug, serde::Deserialize)]
+#[derive(Debug, schemars::JsonSchema, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ModelFile {
     /// Title, one line. Default: the id in words.
@@ -134,7 +135,7 @@ pub(super) struct ModelFile {
 }
 
 /// A coordinate or an input.
-#[derive(Debug, Default, serde::Deserialize)]
+#[derive(Debug, Default, schemars::JsonSchema, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct QuantityFile {
     /// `m`, `rad`, `N`; empty for none.
@@ -160,7 +161,7 @@ pub(super) struct OutputFile {
 }
 
 /// An equilibrium and the input and output looked at there.
-#[derive(Debug, serde::Deserialize)]
+#[derive(Debug, schemars::JsonSchema, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct OperatingPointFile {
     /// Title, one line. Default: the id in words.
@@ -177,7 +178,7 @@ pub(super) struct OperatingPointFile {
 }
 
 /// Linear against nonlinear, after an impulse at the input.
-#[derive(Debug, serde::Deserialize)]
+#[derive(Debug, schemars::JsonSchema, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ComparisonFile {
     /// Seconds looked at, > 0.
@@ -189,7 +190,7 @@ pub(super) struct ComparisonFile {
 }
 
 /// A source and a chain of blocks, run with and without its nonlinearities.
-#[derive(Debug, serde::Deserialize)]
+#[derive(Debug, schemars::JsonSchema, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SimulationFile {
     /// Title, one line. Default: the id in words.
@@ -209,7 +210,7 @@ pub(super) struct SimulationFile {
 }
 
 /// What a signal is called.
-#[derive(Debug, serde::Deserialize)]
+#[derive(Debug, schemars::JsonSchema, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SignalNameFile {
     /// `speed`.
@@ -220,7 +221,7 @@ pub(super) struct SignalNameFile {
 }
 
 /// A driving signal.
-#[derive(Debug, serde::Deserialize)]
+#[derive(Debug, schemars::JsonSchema, serde::Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub(super) enum SourceFile {
     /// amplitude · sin(frequency · t + phase) + bias.
@@ -257,7 +258,7 @@ pub(super) enum SourceFile {
 }
 
 /// A block of a chain.
-#[derive(Debug, serde::Deserialize)]
+#[derive(Debug, schemars::JsonSchema, serde::Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub(super) enum BlockFile {
     /// Holds the signal within ±`limit`.
@@ -313,7 +314,7 @@ pub(super) enum BlockFile {
 }
 
 /// What part of the points an answer earns that is wrong by the reference but right for an earlier answer, 0 to 1.
-#[derive(Debug, Default, serde::Deserialize)]
+#[derive(Debug, Default, schemars::JsonSchema, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct FollowThroughFile {
     /// Of poles, responses, words and prose that are right for the student's own transfer function. Default 1.
@@ -323,7 +324,7 @@ pub(super) struct FollowThroughFile {
 }
 
 /// What is looked for in a wrong transfer function. The mistakes themselves are found from the equations.
-#[derive(Debug, Default, serde::Deserialize)]
+#[derive(Debug, Default, schemars::JsonSchema, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct MistakesFile {
     /// How likely a mistake is beside the others, by its code: a whole number, 0 to leave it out.
@@ -336,7 +337,7 @@ pub(super) struct MistakesFile {
 }
 
 /// How near is right, by kind of answer. A criterion may have a `tolerance` of its own.
-#[derive(Debug, Default, serde::Deserialize)]
+#[derive(Debug, Default, schemars::JsonSchema, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct TolerancesFile {
     /// Of transfer function coefficients. Default: relative 0.005.
@@ -348,7 +349,7 @@ pub(super) struct TolerancesFile {
 }
 
 /// Right within max(absolute, relative · |expected|), or when correctly rounded to at least so many figures.
-#[derive(Clone, Debug, serde::Deserialize)]
+#[derive(Clone, Debug, schemars::JsonSchema, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ToleranceFile {
     /// In the value's unit; the width that an expected zero has. Default 0.
@@ -360,7 +361,7 @@ pub(super) struct ToleranceFile {
 }
 
 /// A question of the handout.
-#[derive(Debug, serde::Deserialize)]
+#[derive(Debug, schemars::JsonSchema, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct QuestionFile {
     /// As on the handout: `Task 1, question 4`. Default: `Question 3` for the third.
@@ -379,6 +380,7 @@ pub(super) struct QuestionFile {
     pub about: Option<Text>,
     /// `impulse` or `step`: the response its criteria judge unless they say otherwise. Default: `step` for features that only
     /// step responses have, else `impulse`.
+    #[schemars(extend("enum" = schema::responses()))]
     pub response: Option<Text>,
     /// The one field of the answer, under the question's own id. Give this or `fields`.
     pub answer: Option<FieldForm>,
@@ -391,6 +393,7 @@ pub(super) struct QuestionFile {
     ///
     /// Not read here: its lines become an answer file, which is read like a student's.
     #[serde(default, rename = "model_answer")]
+    #[schemars(with = "serde_json::Value")]
     pub _model_answer: IgnoredAny,
 }
 
@@ -399,11 +402,12 @@ pub(super) struct QuestionFile {
 pub(super) struct FieldForm(pub FieldFile);
 
 /// A field of an answer.
-#[derive(Debug, Default, serde::Deserialize)]
+#[derive(Debug, Default, schemars::JsonSchema, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct FieldFile {
     /// `transfer_function`, `poles`, `value`, `stability`, `shape`, `nonlinearity`, `prose`, `figure` or `data`; or a feature, for
     /// the value of it. Default: what `feature`, `expected` or `concepts` is for.
+    #[schemars(extend("enum" = schema::kinds_and_features()))]
     pub kind: Option<Text>,
     /// What is asked for, one line. Default: the kind in words.
     pub prompt: Option<String>,
@@ -417,8 +421,10 @@ pub(super) struct FieldFile {
     /// The operating point it is judged against, in a question without `criteria`. Default: the question's `about`.
     pub of: Option<Text>,
     /// `impulse` or `step`, in a question without `criteria`. Default: the question's `response`.
+    #[schemars(extend("enum" = schema::responses()))]
     pub response: Option<Text>,
     /// For a `value`, in a question without `criteria`: `final_value`, `overshoot_percent`, … as for a criterion.
+    #[schemars(extend("enum" = schema::features()))]
     pub feature: Option<Text>,
     /// In place of the lab's, in a question without `criteria`.
     pub tolerance: Option<Spanned<ToleranceFile>>,
@@ -468,7 +474,7 @@ impl<'de> Deserialize<'de> for FieldForm {
 }
 
 /// What earns points. Which keys a criterion takes depends on its `check`.
-#[derive(Debug, serde::Deserialize)]
+#[derive(Debug, schemars::JsonSchema, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CriterionFile {
     /// In words, for the report. Default: the id in words.
@@ -479,12 +485,15 @@ pub(super) struct CriterionFile {
     /// only field.
     pub field: Option<Text>,
     /// `structure`, `numerator`, `denominator`, `poles`, `stability`, `feature`, `shape`, `plot`, `concepts` or `nonlinearity`.
+    #[schemars(extend("enum" = schema::checks()))]
     pub check: Text,
     /// The operating point judged against. Default: the question's `about`.
     pub of: Option<Text>,
     /// `impulse` or `step`. Default: the question's `response`. For `feature`, `shape`, `plot`.
+    #[schemars(extend("enum" = schema::responses()))]
     pub response: Option<Text>,
     /// For `feature`: `initial_value`, `final_value`, `peak`, `period_s`, … as the manual lists them.
+    #[schemars(extend("enum" = schema::features()))]
     pub feature: Option<Text>,
     /// In place of the lab's.
     pub tolerance: Option<Spanned<ToleranceFile>>,
@@ -508,13 +517,14 @@ pub(super) struct CriterionFile {
     pub contradictions: Option<Entries<ConceptFile>>,
     /// For `concepts`: `impulse` or `step` when the prose describes that response of the operating point; what it claims is
     /// then held against the numbers. Default: it describes none.
+    #[schemars(extend("enum" = schema::responses()))]
     pub describes: Option<Text>,
     /// For `nonlinearity`: `saturation`, `dead zone`, `backlash`, …
     pub expected: Option<Text>,
 }
 
 /// Something prose may say.
-#[derive(Clone, Debug, serde::Deserialize)]
+#[derive(Clone, Debug, schemars::JsonSchema, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ConceptFile {
     /// In words, for the report: `it swings about the bottom`.
@@ -524,7 +534,7 @@ pub(super) struct ConceptFile {
 }
 
 /// The observation sheet.
-#[derive(Debug, Default, serde::Deserialize)]
+#[derive(Debug, Default, schemars::JsonSchema, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ObservedFile {
     /// Levels of every row, best first.
@@ -536,7 +546,7 @@ pub(super) struct ObservedFile {
 }
 
 /// A level of the observation sheet: `from`..=`to` points.
-#[derive(Debug, serde::Deserialize)]
+#[derive(Debug, schemars::JsonSchema, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct LevelFile {
     /// `Meets expectation`.
@@ -548,7 +558,7 @@ pub(super) struct LevelFile {
 }
 
 /// A row of the observation sheet.
-#[derive(Debug, serde::Deserialize)]
+#[derive(Debug, schemars::JsonSchema, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ObservedRowFile {
     /// What is observed.
@@ -563,7 +573,7 @@ pub(super) struct ObservedRowFile {
 }
 
 /// The cover sheet.
-#[derive(Debug, serde::Deserialize)]
+#[derive(Debug, schemars::JsonSchema, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CoverFile {
     /// What the rows add up to, points. Default: what they do.
@@ -573,7 +583,7 @@ pub(super) struct CoverFile {
 }
 
 /// A box of the cover sheet.
-#[derive(Debug, serde::Deserialize)]
+#[derive(Debug, schemars::JsonSchema, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CoverRowFile {
     /// `Lab performance`.
@@ -581,11 +591,12 @@ pub(super) struct CoverRowFile {
     /// Points of this box.
     pub points: Text,
     /// `questions_and_observed` or `questions` or `observed`, scaled to these points; or `by_hand`.
+    #[schemars(extend("enum" = schema::sources()))]
     pub from: Text,
 }
 
 /// A value known independently. Give `value` or `values`.
-#[derive(Debug, serde::Deserialize)]
+#[derive(Debug, schemars::JsonSchema, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ExpectFile {
     /// A number, a complex number (`-0.0195 + 5.586j`) or a word.

@@ -1,5 +1,7 @@
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::{Deserialize, Deserializer};
 use serde_yaml::Location;
+use std::borrow::Cow;
 
 /// A value of the lab file, and where it stands; of what an alias repeats, where it was first written.
 ///
@@ -14,5 +16,24 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Spanned<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         serde_yaml::Spanned::deserialize(deserializer)
             .map(|serde_yaml::Spanned { value, defined, .. }| Self { value, defined })
+    }
+}
+
+/// In an editor, the value alone.
+impl<T: JsonSchema> JsonSchema for Spanned<T> {
+    fn inline_schema() -> bool {
+        T::inline_schema()
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        T::schema_name()
+    }
+
+    fn schema_id() -> Cow<'static, str> {
+        T::schema_id()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        T::json_schema(generator)
     }
 }

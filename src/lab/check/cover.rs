@@ -2,7 +2,7 @@ use super::{Checker, Names, span};
 use crate::lab::file::{CoverFile, ObservedFile};
 use crate::lab::{Cover, CoverRow, CoverSource, Level, ObservedRow, Points, defaults};
 
-const SOURCES: &[(&str, CoverSource)] = &[
+pub(in crate::lab) const SOURCES: &[(&str, CoverSource)] = &[
     ("questions_and_observed", CoverSource::QuestionsAndObserved),
     ("questions", CoverSource::Questions),
     ("observed", CoverSource::Observed),

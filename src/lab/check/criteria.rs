@@ -12,9 +12,9 @@ use crate::source::Span;
 use crate::submission::{FieldKind, Unit, nonlinearity_word};
 
 /// A check: its name, the kind of field it judges, and the keys it takes beyond `title`, `points`, `field` and `check`.
-type CheckRow = (&'static str, FieldKind, &'static [&'static str]);
+pub(in crate::lab) type CheckRow = (&'static str, FieldKind, &'static [&'static str]);
 
-const CHECKS: &[CheckRow] = &[
+pub(in crate::lab) const CHECKS: &[CheckRow] = &[
     ("structure", FieldKind::TransferFunction, &["of"]),
     ("numerator", FieldKind::TransferFunction, &["of", "tolerance"]),
     ("denominator", FieldKind::TransferFunction, &["of", "tolerance", "one_slip"]),

@@ -18,6 +18,10 @@ mod simulations;
 mod tests;
 mod usual;
 
+pub(super) use cover::SOURCES;
+pub(super) use criteria::CHECKS;
+pub(super) use questions::KINDS;
+
 use super::file::{Entries, LabFile, QuantityFile, Spanned, Text};
 use super::{LabDefinition, LabErrors, Outcome, SystemRef, defaults, model_answer, read, sheet};
 use crate::source::{Finding, Node, SourceText, Span, Value};

@@ -5,7 +5,7 @@ use crate::lab::names::{list, suggestion};
 use crate::lab::{Check, Criterion, FeatureKind, Points, Question, QuestionField, defaults};
 use crate::submission::FieldKind;
 
-const KINDS: &[(&str, FieldKind)] = &[
+pub(in crate::lab) const KINDS: &[(&str, FieldKind)] = &[
     ("transfer_function", FieldKind::TransferFunction),
     ("poles", FieldKind::Poles),
     ("value", FieldKind::Value),
