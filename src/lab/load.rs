@@ -53,9 +53,10 @@ mod tests {
             load("ee361-lab4").unwrap_err().to_string(),
             "no lab is called `ee361-lab4`, and no file or folder is there; did you mean `ee361-lab3`?"
         );
+        let known: Vec<String> = SHELF.iter().map(|(id, _)| format!("`{id}`")).collect();
         assert_eq!(
             load("zzz").unwrap_err().to_string(),
-            "no lab is called `zzz`, and no file or folder is there; known: `ee361-lab3`"
+            format!("no lab is called `zzz`, and no file or folder is there; known: {}", known.join(", "))
         );
     }
 
