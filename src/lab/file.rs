@@ -147,7 +147,7 @@ pub(super) struct QuantityFile {
 }
 
 /// An output that is no coordinate.
-#[derive(Debug, serde::Deserialize)]
+#[derive(Debug, schemars::JsonSchema, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct OutputFile {
     /// `m`, `rad/s`; empty for none.
