@@ -80,6 +80,16 @@ pub(super) fn accepted<'a, T: ?Sized>(
         .unwrap_or_default()
 }
 
+/// Those of them that have what is picked: an improper transfer function has no responses.
+pub(super) fn accepted_where<'a, T: ?Sized>(
+    reference: &'a Reference,
+    of: &SystemRef,
+    pick: impl Fn(&'a LinearReference) -> Option<&'a T>,
+) -> Vec<Accepted<'a, T>> {
+    let all = operating_point(reference, of).map_or(&[][..], |point| &point.accepted);
+    all.iter().filter_map(|one| Some(Accepted { differs: &one.differs, what: pick(one)? })).collect()
+}
+
 /// The widest relative tolerance that the lab gives a coefficient of the system's transfer function.
 pub(super) fn coefficient_tolerance(lab: &LabDefinition, of: &SystemRef) -> Rational {
     let checks =

@@ -1,4 +1,4 @@
-use super::accepted::{Accepted, accepted, operating_point};
+use super::accepted::{Accepted, accepted, accepted_where, operating_point};
 use super::own::OwnModel;
 use super::poles::{ExpectedPoles, accepted_poles};
 use crate::lab::{Curve, SystemRef};
@@ -41,7 +41,7 @@ impl<'a> Truth<'a> {
 
     pub fn responses(self, of: &SystemRef, kind: InputKind) -> Vec<Accepted<'a, ResponseReference>> {
         match self {
-            Self::Reference(reference) => accepted(reference, of, |one| response_of(one, kind)),
+            Self::Reference(reference) => accepted_where(reference, of, |one| one.response(kind)),
             Self::Own(own) => {
                 own.response(kind).map(|what| Accepted { differs: &[], what }).into_iter().collect()
             }
@@ -76,13 +76,6 @@ impl<'a> Truth<'a> {
             Self::Reference(reference) => operating_point(reference, of)?.accepted.first(),
             Self::Own(_) => None,
         }
-    }
-}
-
-fn response_of(linear: &LinearReference, kind: InputKind) -> &ResponseReference {
-    match kind {
-        InputKind::Impulse => &linear.impulse,
-        InputKind::Step => &linear.step,
     }
 }
 

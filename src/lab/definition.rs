@@ -1,7 +1,7 @@
 use super::{AskedFeature, MistakesRule, Points};
 use crate::algebra::{Expression, Rational};
 use crate::lti::InputKind;
-use crate::model::{Comparison, Equilibrium, Model, Rest};
+use crate::model::{Comparison, Equilibrium, LinearForm, Model, Rest};
 use crate::nonlinear::{Chain, Nonlinearity};
 use crate::prose::Phrase;
 use crate::source::{SourceText, Span};
@@ -73,6 +73,8 @@ pub struct ModelDefinition {
     pub id: String,
     pub title: String,
     pub model: Model,
+    /// How the model was given, when it was given as a linear one.
+    pub linear: Option<LinearForm>,
     pub operating_points: Vec<OperatingPointDefinition>,
 }
 

@@ -1,5 +1,6 @@
 //! The lab file as typed: serde mirrors of the YAML, nothing checked yet. Each field's comment is its manual.
 
+use super::linear_file::{ChannelFile, LinearFile};
 use super::schema;
 pub(super) use super::spanned::Spanned;
 use serde::de::value::MapAccessDeserializer;
@@ -115,23 +116,33 @@ pub(super) struct ParameterFile {
     pub mistaken: Vec<Text>,
 }
 
-/// A system given by its equations of motion.
+/// A system given by its equations of motion, or a linear one by `linear`.
 #[derive(Debug, schemars::JsonSchema, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ModelFile {
     /// Title, one line. Default: the id in words.
     pub title: Option<String>,
-    /// Generalized coordinates by name.
+    /// Generalized coordinates by name. Needed without `linear`.
+    #[serde(default)]
     pub coordinates: Spanned<Entries<QuantityFile>>,
-    /// Inputs by name.
+    /// Inputs by name. Needed without `linear`; with it, default `u` (`u1`, `u2`, … of several).
+    #[serde(default)]
     pub inputs: Spanned<Entries<QuantityFile>>,
-    /// As many equations as coordinates, `left = right`, as printed on the handout.
+    /// As many equations as coordinates, `left = right`, as printed on the handout. Needed without `linear`.
+    #[serde(default)]
     pub equations: Spanned<Vec<Text>>,
-    /// What is watched and is no coordinate, by name.
+    /// What is watched and is no coordinate, by name. Of a linear model default `y` (`y1`, `y2`, … of several).
     #[serde(default)]
     pub outputs: Entries<OutputFile>,
-    /// Where the system is linearized, by id.
+    /// Where the system is linearized, by id. Needed without `linear`.
+    #[serde(default)]
     pub operating_points: Spanned<Entries<OperatingPointFile>>,
+    /// A linear model, in place of coordinates, equations and operating points; it is at rest where everything is 0.
+    pub linear: Option<Spanned<LinearFile>>,
+    /// For `linear` with several inputs or outputs: which one is varied and which is watched, by id. Default: the only ones,
+    /// under the id `linear`.
+    #[serde(default)]
+    pub channels: Spanned<Entries<ChannelFile>>,
 }
 
 /// A coordinate or an input.
@@ -156,8 +167,8 @@ pub(super) struct OutputFile {
     /// What it is, in words.
     #[serde(default)]
     pub description: String,
-    /// Of coordinates, their derivatives, inputs and parameters: `x1 - x2`, `theta'`.
-    pub formula: Text,
+    /// Of coordinates, their derivatives, inputs and parameters: `x1 - x2`, `theta'`. Needed without `linear`.
+    pub formula: Option<Text>,
 }
 
 /// An equilibrium and the input and output looked at there.

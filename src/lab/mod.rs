@@ -6,6 +6,7 @@ mod definition;
 mod errors;
 mod feature;
 mod file;
+mod linear_file;
 mod load;
 mod mistakes;
 mod model_answer;

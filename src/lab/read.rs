@@ -1,4 +1,5 @@
 use super::file::LabFile;
+use super::linear_file;
 use super::names::suggestion;
 use crate::source::{Finding, Node, SourceText, Span, Value, sanitize};
 use serde_yaml::{Error, Location};
@@ -18,9 +19,10 @@ pub(super) fn read(source: &SourceText) -> Result<(LabFile, Node), Finding> {
     })?;
     // The tree was read within budgets, so the second reading needs none of its own.
     let options = serde_yaml::options! { with_snippet: false };
-    serde_yaml::from_str_with_options(&source.text, options)
-        .map_err(|error| finding(&error, &tree))
-        .map(|file| (file, tree))
+    let mut file: LabFile =
+        serde_yaml::from_str_with_options(&source.text, options).map_err(|error| finding(&error, &tree))?;
+    linear_file::spell_out(&mut file)?;
+    Ok((file, tree))
 }
 
 /// A sentence for students as a help for authors: a small letter first, no full stop.

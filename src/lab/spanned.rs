@@ -12,6 +12,13 @@ pub(super) struct Spanned<T> {
     pub defined: Location,
 }
 
+/// What stands for a key that is not there: nothing, at no place.
+impl<T: Default> Default for Spanned<T> {
+    fn default() -> Self {
+        Self { value: T::default(), defined: Location::UNKNOWN }
+    }
+}
+
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Spanned<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         serde_yaml::Spanned::deserialize(deserializer)

@@ -51,7 +51,7 @@ pub fn compare(
     let linearization = linearize(model, parameters, at, input, output)?;
     let experiment = Experiment {
         motion: Motion::new(model, parameters, at, output)?,
-        start: column(&linearization.state_space.b),
+        start: column(&linearization.state_space.as_ref().ok_or(ModelError::Singular)?.b),
         linear: impulse_response(&linearization, comparison.horizon_s)?,
         horizon_s: comparison.horizon_s,
     };
@@ -192,7 +192,7 @@ fn bracket(excess: impl Fn(f64) -> f64, start: f64) -> Option<((f64, f64), (f64,
 
 /// The linear output after an impulse of 1, at each instant.
 fn impulse_response(linearization: &Linearization, horizon_s: f64) -> Result<Vec<f64>, ModelError> {
-    let space = &linearization.state_space;
+    let space = linearization.state_space.as_ref().ok_or(ModelError::Singular)?;
     let mut state = DVector::from_vec(column(&space.b));
     let output = RowDVector::from_vec(column_of_row(&space.c));
     let n = state.len();

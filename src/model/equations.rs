@@ -130,6 +130,11 @@ impl Model {
         Ok(model)
     }
 
+    /// Whether its equations stand on the handout: those of a transfer function are put together here, and have no text.
+    pub fn is_printed(&self) -> bool {
+        self.equations.iter().all(|equation| !equation.text.is_empty())
+    }
+
     /// left − right of equation `index`, counted from 0; 0 beyond the last. Its nodes keep their places in the text.
     pub fn residual(&self, index: usize) -> Expression {
         match self.equations.get(index) {

@@ -9,7 +9,8 @@ use std::collections::BTreeMap;
 pub struct Linearization {
     /// Names of the states in order: `x`, `x'`, `theta`, `theta'`.
     pub states: Vec<String>,
-    pub state_space: StateSpace,
+    /// `None` where the equations cannot be solved for the highest derivatives: of an improper transfer function there is none.
+    pub state_space: Option<StateSpace>,
     /// Straight from the elimination (Cramer on the polynomial matrix), nothing cancelled; `den` leads with a positive number.
     pub uncancelled: TransferFunction,
     /// The factor (monic gcd) that numerator and denominator share; 1 when they share none.
@@ -37,6 +38,12 @@ pub fn linearize(
     at.balances(model, &parameters)?;
     let slopes = Slopes::at(model, &parameters, at)?;
     let uncancelled = slopes.eliminate(input, output)?;
+    let state_space = match slopes.state_space(input, output) {
+        Ok(state_space) => Some(state_space),
+        // Of a model given as an improper transfer function.
+        Err(_) if !model.is_printed() => None,
+        Err(error) => return Err(error),
+    };
     let cancelled = uncancelled.num.gcd(&uncancelled.den);
     let transfer_function = TransferFunction {
         num: uncancelled.num.exact_quotient(&cancelled),
@@ -44,7 +51,7 @@ pub fn linearize(
     };
     Ok(Linearization {
         states: model.states().iter().map(|(name, primes)| primed(name, *primes)).collect(),
-        state_space: slopes.state_space(input, output)?,
+        state_space,
         uncancelled,
         cancelled,
         transfer_function,
@@ -317,7 +324,10 @@ mod tests {
         for s in [2, 5, 11] {
             let s = Rational::from(s);
             for g in [&linear.uncancelled, &linear.transfer_function] {
-                assert_eq!(state_space_at(&linear.state_space, &s), g.num.eval(&s) / g.den.eval(&s));
+                assert_eq!(
+                    state_space_at(linear.state_space.as_ref().unwrap(), &s),
+                    g.num.eval(&s) / g.den.eval(&s)
+                );
             }
         }
     }

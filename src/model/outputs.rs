@@ -130,7 +130,7 @@ mod tests {
             let linear = linearize(&model, &parameters, &at, "F", "y").unwrap();
             let expected = TransferFunction { num, den: den.clone() };
             assert!(linear.transfer_function.equals(&expected), "{formula}: {:?}", linear.transfer_function);
-            assert!(linear.state_space.transfer_function().equals(&expected), "{formula}");
+            assert!(linear.state_space.as_ref().unwrap().transfer_function().equals(&expected), "{formula}");
         }
     }
 

@@ -45,7 +45,7 @@ impl SmallSignal {
         linearization: &Linearization,
         horizon_s: f64,
     ) -> Result<Self, ModelError> {
-        let space = &linearization.state_space;
+        let space = linearization.state_space.as_ref().ok_or(ModelError::Singular)?;
         let n = space.a.rows.len();
         let start: Vec<f64> = space.b.rows.iter().filter_map(|row| row.first()).map(to_f64).collect();
         let output_row: Vec<f64> = space.c.rows.first().into_iter().flatten().map(to_f64).collect();

@@ -99,7 +99,9 @@ impl Led {
         point: &OperatingPointDefinition,
     ) -> Check {
         let declared = |mistake: &&Mistake| {
-            lab.mistakes.without_effect.iter().any(|entry| entry.covers(mistake, &model.model))
+            // A linear model is given as it is, hidden states included: there a term without effect is no mistyped equation.
+            model.linear.is_some()
+                || lab.mistakes.without_effect.iter().any(|entry| entry.covers(mistake, &model.model))
         };
         let undeclared: Vec<Mistake> =
             self.nowhere.iter().filter(|mistake| !declared(mistake)).cloned().collect();
@@ -107,6 +109,7 @@ impl Led {
             what: format!("mistakes without effect at {}.{}", model.id, point.id),
             found: match (undeclared.as_slice(), self.nowhere.len()) {
                 ([], 0) => "there are none".to_owned(),
+                ([], count) if model.linear.is_some() => format!("{count}, in a linear model as it is given"),
                 ([], count) => format!("{count}, all declared"),
                 (undeclared, _) => format!(
                     "no answer shows {}; declare what is meant to be so under `mistakes: {{without_effect: […]}}`",

@@ -29,8 +29,7 @@ struct ParameterChoice {
 impl Reference {
     /// Computes every right answer of `lab`.
     ///
-    /// Errors: an operating point that is not an equilibrium, an improper transfer function, a simulation that leaves
-    /// the range of numbers.
+    /// Errors: an operating point that is not an equilibrium, a response or a simulation that leaves the range of numbers.
     pub fn compute(lab: &LabDefinition) -> Result<Self, ReferenceError> {
         let choices = parameter_choices(lab);
         let models =
@@ -121,7 +120,12 @@ fn linear_reference(
     let root_error = |error| ReferenceError::Roots { point: name(definition, point), error };
     let response_error = |error| ReferenceError::Response { point: name(definition, point), error };
     let g = &linearization.transfer_function;
-    let characteristic = linearization.state_space.characteristic_polynomial();
+    // The determinant of the elimination: the characteristic polynomial of the whole state, up to a factor.
+    let characteristic = linearization.uncancelled.den.monic();
+    let response = |kind| match ResponseReference::of(g, kind) {
+        Err(ResponseError::Improper { .. }) => Ok(None),
+        other => other.map(Some).map_err(response_error),
+    };
     Ok(LinearReference {
         differs: choice.differs.clone(),
         poles: roots(&g.den).map_err(root_error)?,
@@ -129,8 +133,8 @@ fn linear_reference(
         stability: stability(&g.den),
         internal_poles: roots(&characteristic).map_err(root_error)?,
         internal_stability: stability(&characteristic),
-        impulse: ResponseReference::of(g, InputKind::Impulse).map_err(response_error)?,
-        step: ResponseReference::of(g, InputKind::Step).map_err(response_error)?,
+        impulse: response(InputKind::Impulse)?,
+        step: response(InputKind::Step)?,
         linearization,
     })
 }

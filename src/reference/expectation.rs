@@ -124,8 +124,8 @@ fn linear_values(linear: &LinearReference, path: &str) -> Option<Vec<ExpectedVal
         _ => {
             let (kind, feature) = path.split_once('.')?;
             match kind {
-                "impulse" => feature_value(&linear.impulse, feature),
-                "step" => feature_value(&linear.step, feature),
+                "impulse" => feature_value(linear.impulse.as_ref()?, feature),
+                "step" => feature_value(linear.step.as_ref()?, feature),
                 _ => None,
             }
         }

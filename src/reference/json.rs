@@ -38,8 +38,9 @@ struct OperatingPointView<'a> {
     stability: &'static str,
     internal_stability: &'static str,
     internal_poles: Vec<PoleView>,
-    impulse: ResponseView<'a>,
-    step: ResponseView<'a>,
+    /// Null of an improper transfer function.
+    impulse: Option<ResponseView<'a>>,
+    step: Option<ResponseView<'a>>,
     accepted: Vec<AcceptedView<'a>>,
     parting_push: Option<f64>,
     parting_amplitude: Option<f64>,
@@ -140,8 +141,8 @@ fn operating_point_view(point: &OperatingPointReference) -> OperatingPointView<'
         stability: main.stability.as_str(),
         internal_stability: main.internal_stability.as_str(),
         internal_poles: pole_views(&main.internal_poles),
-        impulse: response_view(&main.impulse),
-        step: response_view(&main.step),
+        impulse: main.impulse.as_ref().map(response_view),
+        step: main.step.as_ref().map(response_view),
         accepted: point
             .accepted
             .iter()

@@ -38,7 +38,8 @@ fn operating_point(text: &mut String, model: &str, point: &OperatingPointReferen
     let at: Vec<String> =
         point.equilibrium_text.iter().map(|(name, value)| format!("{name} = {value}")).collect();
     line(text, format_args!(""));
-    line(text, format_args!("{model}.{} ({}): {}", point.id, point.title, at.join(", ")));
+    let rest = if at.is_empty() { String::new() } else { format!(": {}", at.join(", ")) };
+    line(text, format_args!("{model}.{} ({}){rest}", point.id, point.title));
     for linear in &point.accepted {
         let choice: Vec<String> =
             linear.differs.iter().map(|(name, value, _)| format!("{name} = {value}")).collect();
@@ -73,13 +74,13 @@ fn operating_point(text: &mut String, model: &str, point: &OperatingPointReferen
         text,
         format_args!(
             "  whole state ({}): {}, eigenvalues {} rad/s",
-            main.linearization.states.join(", "),
+            states_text(&main.linearization.states),
             main.internal_stability.words(),
             roots_text(&main.internal_poles)
         ),
     );
-    response(text, "impulse response", &main.impulse);
-    response(text, "step response", &main.step);
+    response(text, "impulse response", main.impulse.as_ref());
+    response(text, "step response", main.step.as_ref());
     if let Some(comparison) = &point.comparison
         && let (Some(push), Some(amplitude)) = (comparison.parting_push, comparison.parting_amplitude)
     {
@@ -96,7 +97,11 @@ fn operating_point(text: &mut String, model: &str, point: &OperatingPointReferen
     }
 }
 
-fn response(text: &mut String, name: &str, response: &ResponseReference) {
+fn response(text: &mut String, name: &str, response: Option<&ResponseReference>) {
+    let Some(response) = response else {
+        line(text, format_args!("  {name}: none, the transfer function is improper"));
+        return;
+    };
     let f = &response.features;
     let mut facts =
         vec![f.shape.words().to_owned(), format!("starts at {}", significant(f.initial_value, FIGURES))];
@@ -119,6 +124,15 @@ fn response(text: &mut String, name: &str, response: &ResponseReference) {
         facts.push(format!("within 2 % after {} s", significant(settling, FIGURES)));
     }
     line(text, format_args!("  {name}: {}", facts.join("; ")));
+}
+
+/// The first few of many.
+fn states_text(states: &[String]) -> String {
+    match states.len() {
+        0 => "no states".to_owned(),
+        1..=6 => states.join(", "),
+        n => format!("{}, …, {n} in all", states[..3].join(", ")),
+    }
 }
 
 fn roots_text(roots: &[Pole]) -> String {

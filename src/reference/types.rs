@@ -1,6 +1,6 @@
 use super::ResponseReference;
 use crate::algebra::Rational;
-use crate::lti::{Pole, Stability};
+use crate::lti::{InputKind, Pole, Stability};
 use crate::model::{ComparisonRun, Linearization};
 use crate::nonlinear::Run;
 
@@ -57,8 +57,19 @@ pub struct LinearReference {
     /// Eigenvalues of the whole state.
     pub internal_poles: Vec<Pole>,
     pub internal_stability: Stability,
-    pub impulse: ResponseReference,
-    pub step: ResponseReference,
+    /// `None` of an improper transfer function, which has no ordinary responses.
+    pub impulse: Option<ResponseReference>,
+    pub step: Option<ResponseReference>,
+}
+
+impl LinearReference {
+    /// `None` of an improper transfer function.
+    pub fn response(&self, kind: InputKind) -> Option<&ResponseReference> {
+        match kind {
+            InputKind::Impulse => self.impulse.as_ref(),
+            InputKind::Step => self.step.as_ref(),
+        }
+    }
 }
 
 /// A chain with its nonlinearities and with them taken out.

@@ -15,7 +15,9 @@ use crate::lab::{LabDefinition, ModelDefinition, Question, SimulationDefinition,
 use crate::lti::{Features, Pole, Stability, roots};
 use crate::model::Linearization;
 use crate::nonlinear::{Block, Nonlinearity, Signal};
-use crate::reference::{LinearReference, ModelReference, OperatingPointReference, SimulationReference};
+use crate::reference::{
+    LinearReference, ModelReference, OperatingPointReference, ResponseReference, SimulationReference,
+};
 use serde::Serialize;
 
 #[derive(Serialize)]
@@ -43,6 +45,8 @@ struct ParameterView {
 struct ModelView {
     anchor: String,
     title: String,
+    /// A linear model as it was given; empty for one given by equations of motion.
+    given_html: String,
     equations_html: Vec<String>,
     coordinates: Vec<ParameterView>,
     points: Vec<PointView>,
@@ -54,6 +58,8 @@ struct PointView {
     title: String,
     equilibrium_html: Vec<String>,
     exactness: &'static str,
+    /// There was nothing to linearize.
+    given_linear: bool,
     linear_html: Vec<String>,
     state_html: String,
     space_html: Vec<String>,
@@ -173,23 +179,36 @@ fn model(kit: &ReportKit, definition: &ModelDefinition, reference: &ModelReferen
     });
     let points = reference.operating_points.iter().map(|p| {
         let system = SystemRef { model: definition.id.clone(), operating_point: p.id.clone() };
-        point(kit, &system, p)
+        point(kit, &system, p, definition.linear.is_some())
     });
     ModelView {
         anchor: anchor("model", &definition.id),
         title: definition.title.clone(),
-        equations_html: definition.model.equations.iter().map(math::equation).collect(),
+        given_html: definition.linear.as_ref().map(math::linear_form).unwrap_or_default(),
+        equations_html: match definition.linear {
+            Some(_) if !definition.model.is_printed() => Vec::new(),
+            _ => definition.model.equations.iter().map(math::equation).collect(),
+        },
         coordinates: coordinates.collect(),
         points: points.collect(),
     }
 }
 
-fn point(kit: &ReportKit, system: &SystemRef, point: &OperatingPointReference) -> PointView {
+fn point(
+    kit: &ReportKit,
+    system: &SystemRef,
+    point: &OperatingPointReference,
+    given_linear: bool,
+) -> PointView {
     let main = point.main();
     let linearization = &main.linearization;
-    let space = &linearization.state_space;
     let id = |kind: &str| anchor("figure", &format!("{system}.{kind}"));
-    let (impulse, step) = (&main.impulse.features, &main.step.features);
+    let features = |known: &Option<ResponseReference>| known.as_ref().map(|known| known.features.clone());
+    let (impulse, step) = (features(&main.impulse), features(&main.step));
+    let words = |features: &Option<Features>| match features {
+        Some(features) => feature_words(features, &point.output_unit),
+        None => "none, since the numerator outranks the denominator.".to_owned(),
+    };
     let comparisons = point.comparison.iter().flat_map(|comparison| &comparison.runs).enumerate();
     PointView {
         anchor: anchor("point", &system.to_string()),
@@ -204,9 +223,12 @@ fn point(kit: &ReportKit, system: &SystemRef, point: &OperatingPointReference) -
         } else {
             "The equilibrium is not a rational number, so coefficients were computed in double precision."
         },
+        given_linear,
         linear_html: linearization.linear_equations.iter().map(|e| math::linear_equation(e)).collect(),
         state_html: math::state_vector(&linearization.states),
-        space_html: math::state_space(&space.a, &space.b, &space.c, &space.d).to_vec(),
+        space_html: linearization.state_space.as_ref().map_or_else(Vec::new, |space| {
+            math::state_space(&space.a, &space.b, &space.c, &space.d).to_vec()
+        }),
         from_to: format!("from {} to {}", letter(&point.input), letter(&point.output)),
         uncancelled_html: math::transfer_function(&linearization.uncancelled),
         factor_html: if linearization.cancelled.degree() > 0 {
@@ -222,9 +244,12 @@ fn point(kit: &ReportKit, system: &SystemRef, point: &OperatingPointReference) -
         internal_poles: root_words(&main.internal_poles, 10),
         internal_stability: main.internal_stability.words(),
         hidden: hidden_words(linearization, main.internal_stability),
-        features: feature_rows(impulse, step, &point.output_unit),
-        impulse_words: feature_words(impulse, &point.output_unit),
-        step_words: feature_words(step, &point.output_unit),
+        features: impulse
+            .as_ref()
+            .zip(step.as_ref())
+            .map_or_else(Vec::new, |(impulse, step)| feature_rows(impulse, step, &point.output_unit)),
+        impulse_words: words(&impulse),
+        step_words: words(&step),
         alternatives: point.accepted.iter().skip(1).map(alternative).collect(),
         figures: point_figures(point, id),
         comparisons: comparisons
@@ -253,7 +278,8 @@ fn point_figures(point: &OperatingPointReference, id: impl Fn(&str) -> String) -
     let map = pole_zero(&format!("{}: poles and zeros", point.title), &main.poles, &main.zeros, None);
     let mut drawn: Vec<_> = draw(&map, &id("map")).into_iter().collect();
     for (kind, response) in [("impulse", &main.impulse), ("step", &main.step)] {
-        let prepared = PreparedResponse::new(point, response);
+        let Some(known) = response else { continue };
+        let prepared = PreparedResponse::new(point, known);
         for (i, figure) in prepared.figures(StudentCurves::default()).iter().enumerate() {
             drawn.extend(draw(figure, &id(&format!("{kind}{i}"))));
         }
@@ -302,7 +328,7 @@ fn hidden_words(linearization: &Linearization, internal: Stability) -> String {
 
 /// States whose own value changes no rate: their column of A is zero.
 fn free_states(linearization: &Linearization) -> Vec<&String> {
-    let a = &linearization.state_space.a;
+    let Some(a) = linearization.state_space.as_ref().map(|space| &space.a) else { return Vec::new() };
     let is_free = |j: usize| a.rows.iter().all(|row| row.get(j).is_some_and(|v| to_f64(v) == 0.0));
     linearization.states.iter().enumerate().filter(|(j, _)| is_free(*j)).map(|(_, s)| s).collect()
 }

@@ -7,8 +7,8 @@ use super::numbers::{number, quantity, typographic};
 use super::prose::{self, Highlight};
 use crate::algebra::to_f64;
 use crate::lab::{Check, Criterion, FeatureKind, SystemRef};
-use crate::lti::{Features, InputKind};
-use crate::reference::{LinearReference, OperatingPointReference, Reference, ResponseReference};
+use crate::lti::Features;
+use crate::reference::{OperatingPointReference, Reference};
 use crate::source::sanitize;
 use crate::submission::{
     Answer, AnswerValue, Decimal, FieldKind, Figure, FinalValue, Series, TypedComplex, nonlinearity_name,
@@ -77,12 +77,12 @@ fn expected(reference: &Reference, check: &Check) -> String {
         }
         Check::Poles { of, .. } => main(of).map(|m| text(&root_words(&m.poles, 6))),
         Check::Stability { of } => main(of).map(|m| text(m.stability.words())),
-        Check::Feature { of, response, feature, .. } => point(of).map(|p| {
-            let features = &response_of(p.main(), *response).features;
-            text(&feature_value(features, feature.kind, &p.output_unit))
+        Check::Feature { of, response, feature, .. } => point(of).and_then(|p| {
+            let features = &p.main().response(*response)?.features;
+            Some(text(&feature_value(features, feature.kind, &p.output_unit)))
         }),
         Check::Shape { of, response } => {
-            main(of).map(|m| text(shape_name(response_of(m, *response).features.shape)))
+            main(of).and_then(|m| m.response(*response)).map(|known| text(shape_name(known.features.shape)))
         }
         Check::Plot { .. } => Some(text("the reference curve below")),
         Check::Concepts { concepts, needed, .. } => {
@@ -103,13 +103,6 @@ fn expected(reference: &Reference, check: &Check) -> String {
 pub fn find<'a>(reference: &'a Reference, of: &SystemRef) -> Option<&'a OperatingPointReference> {
     let model = reference.models.iter().find(|m| m.id == of.model)?;
     model.operating_points.iter().find(|p| p.id == of.operating_point)
-}
-
-pub fn response_of(linear: &LinearReference, kind: InputKind) -> &ResponseReference {
-    match kind {
-        InputKind::Impulse => &linear.impulse,
-        InputKind::Step => &linear.step,
-    }
 }
 
 /// What a heading over the right answer says: prose is not compared word for word.

@@ -5,7 +5,7 @@ use crate::algebra::{
     to_f64,
 };
 use crate::lti::TransferFunction;
-use crate::model::Equation;
+use crate::model::{Equation, LinearForm};
 use std::ops::Range;
 
 /// Figures shown of a coefficient: what was computed, what was typed.
@@ -86,6 +86,24 @@ pub fn state_space(a: &Matrix, b: &Matrix, c: &Matrix, d: &Matrix) -> [String; 2
         )),
         block(&format!("<mi>y</mi><mo>=</mo>{}{x}<mo>+</mo>{}<mi>u</mi>", matrix(c), matrix(d))),
     ]
+}
+
+/// A linear model as it was given, in letters.
+pub fn linear_form(form: &LinearForm) -> String {
+    let LinearForm::StateSpace { a, b, c, d } = form else {
+        return form.formula().map(|typed| formula(&typed)).unwrap_or_default();
+    };
+    let matrix = |name: &str, rows: &[Vec<Expression>]| {
+        let cell = |entry: &Expression| format!("<mtd>{}</mtd>", entry.to_mathml());
+        let rows: String = rows
+            .iter()
+            .map(|row| format!("<mtr>{}</mtr>", row.iter().map(cell).collect::<String>()))
+            .collect();
+        block(&format!(
+            "<mi mathvariant=\"normal\">{name}</mi><mo>=</mo><mtable class=\"matrix\">{rows}</mtable>"
+        ))
+    };
+    [("A", a), ("B", b), ("C", c), ("D", d)].map(|(name, rows)| matrix(name, rows)).concat()
 }
 
 /// The states as a column.

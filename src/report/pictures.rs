@@ -1,7 +1,7 @@
 //! Which figures stand at a question: drawn once for the lab, and again only where a student has something to add.
 
 use super::anchor::anchor;
-use super::answers::{find, response_of};
+use super::answers::find;
 use super::figure::{Figure, FigureError};
 use super::figures::{
     PreparedResponse, PreparedSimulation, StudentCurves, StudentRoots, characteristic_figure,
@@ -84,7 +84,8 @@ pub fn of_question(
             shared,
         })));
         for kind in kinds(question, &system) {
-            let prepared = PreparedResponse::new(point, response_of(main, kind));
+            let Some(known) = main.response(kind) else { continue };
+            let prepared = PreparedResponse::new(point, known);
             let id = next_id();
             let shared = views(&prepared.figures(StudentCurves::default()), &id)?;
             pictures.push(Picture::Response(Box::new(ResponsePicture {

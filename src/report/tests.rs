@@ -243,7 +243,7 @@ fn a_wrong_system_is_drawn_over_the_right_one_and_the_caption_says_where_it_leav
     let unstable =
         TransferFunction::new(decimals("0.06 0"), decimals("-0.0132 -0.0024 0.4166 0.0588")).unwrap();
     let response = Response::new(&unstable, InputKind::Impulse).unwrap();
-    let prepared = PreparedResponse::new(point, &point.main().impulse);
+    let prepared = PreparedResponse::new(point, point.main().impulse.as_ref().unwrap());
     let figures = prepared.figures(StudentCurves { own: Some(&response), data: None });
     assert_eq!(figures.len(), 2, "a long lightly damped decay is shown near and far");
     let near = &figures[0];
@@ -266,7 +266,7 @@ fn a_wrong_system_is_drawn_over_the_right_one_and_the_caption_says_where_it_leav
 
     let alone = prepared.figures(StudentCurves::default());
     assert_eq!(alone[0].caption, "");
-    assert_eq!(alone[1].x.to, point.main().impulse.horizon_s);
+    assert_eq!(alone[1].x.to, point.main().impulse.as_ref().unwrap().horizon_s);
 }
 
 #[test]

@@ -21,7 +21,7 @@ impl Bench {
     fn impulse(&self, operating_point: &str) -> &ResponseReference {
         let mut points = self.reference.models.iter().flat_map(|model| &model.operating_points);
         let point = points.find(|point| point.id == operating_point).expect("it is in the lab");
-        &point.accepted[0].impulse
+        point.accepted[0].impulse.as_ref().expect("it is proper")
     }
 
     fn simulation(&self, id: &str) -> &SimulationReference {

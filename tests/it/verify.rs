@@ -142,6 +142,12 @@ fn failing(text: &str) -> Vec<String> {
 }
 
 #[test]
+fn linear_models_hold_as_they_are_given() {
+    let failing = failing(include_str!("linear.yaml"));
+    assert!(failing.is_empty(), "{failing:#?}");
+}
+
+#[test]
 fn a_mistake_that_no_answer_shows_must_be_declared() {
     const DECLARED: &str = "- \"equation 1: m*l*theta'^2*sin(theta)\"";
     let text = embedded();

@@ -1,5 +1,6 @@
 //! Formulas as trees: read, differentiated, evaluated, printed.
 
+mod build;
 mod differentiate;
 mod evaluate;
 mod lexer;

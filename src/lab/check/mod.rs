@@ -3,6 +3,7 @@
 mod cover;
 mod criteria;
 mod expectations;
+mod linear;
 mod mistakes;
 #[cfg(test)]
 mod model_tests;

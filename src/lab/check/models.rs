@@ -1,9 +1,10 @@
+use super::linear::linear_model;
 use super::parameters::Parameters;
 use super::{Checker, span};
 use crate::algebra::{Expression, ExpressionError, NodeKind, SymbolUse};
 use crate::lab::file::{LabFile, ModelFile, OutputFile, Text};
 use crate::lab::{ModelDefinition, defaults};
-use crate::model::{Coordinate, DerivedParameters, Equation, Model, ModelError};
+use crate::model::{Coordinate, DerivedParameters, Equation, LinearForm, Model, ModelError};
 
 impl Checker<'_> {
     pub(super) fn models(
@@ -14,8 +15,9 @@ impl Checker<'_> {
         let letters: Vec<&str> = file.parameters.0.iter().map(|(name, _)| name.value.as_str()).collect();
         let models = file.models.0.iter().map(|(id, m)| {
             self.id(id, "model id");
-            let derived = parameters.map(|parameters| &parameters.derived);
-            let model = self.model(m, &letters, derived.cloned().unwrap_or_default());
+            let derived = parameters.map(|parameters| parameters.derived.clone()).unwrap_or_default();
+            let linear = self.linear_form(m, &letters);
+            let model = self.model(m, &letters, derived, linear.as_ref());
             let points = m.operating_points.value.0.iter().map(|(point, p)| {
                 self.id(point, "operating point id");
                 self.operating_point(point, p, m, &letters, model.as_ref().zip(parameters))
@@ -29,6 +31,7 @@ impl Checker<'_> {
                 id: id.value.clone(),
                 title: defaults::title(m.title.as_ref(), &id.value),
                 model: model?,
+                linear,
                 operating_points: operating_points.into_iter().collect::<Option<_>>()?,
             })
         });
@@ -36,7 +39,13 @@ impl Checker<'_> {
         models.into_iter().collect()
     }
 
-    fn model(&mut self, file: &ModelFile, letters: &[&str], derived: DerivedParameters) -> Option<Model> {
+    fn model(
+        &mut self,
+        file: &ModelFile,
+        letters: &[&str],
+        derived: DerivedParameters,
+        linear: Option<&LinearForm>,
+    ) -> Option<Model> {
         let (coordinates, inputs) = (&file.coordinates.value.0, &file.inputs.value.0);
         let mut known: Vec<&str> = letters.to_vec();
         for (name, what) in coordinates
@@ -54,6 +63,9 @@ impl Checker<'_> {
         }
         if inputs.is_empty() {
             self.error("lab.model", span(&file.inputs), "a model needs an input", None);
+        }
+        if file.linear.is_some() {
+            return linear.map(|linear| linear_model(linear, file, letters, derived));
         }
         let equations = &file.equations.value;
         if equations.len() != coordinates.len() || equations.is_empty() {
@@ -96,15 +108,17 @@ impl Checker<'_> {
             unit: file.unit.clone(),
             description: file.description.trim().to_owned(),
         };
-        match model.add_output(output, &file.formula.value) {
+        // That a formula is needed is said when the file is read.
+        let Some(formula) = &file.formula else { return };
+        match model.add_output(output, &formula.value) {
             Ok(()) => {}
             Err(ModelError::Value { start, end, message, help, .. }) => {
-                let place = self.locate(&file.formula, start, end);
+                let place = self.locate(formula, start, end);
                 self.error("lab.equation", place, message, help);
             }
             // What is wrong with the name has been reported with the others.
             Err(ModelError::InvalidName { .. } | ModelError::DuplicateName { .. }) => {}
-            Err(error) => self.error("lab.equation", span(&file.formula), error.to_string(), None),
+            Err(error) => self.error("lab.equation", span(formula), error.to_string(), None),
         }
     }
 

@@ -22,7 +22,8 @@ pub(super) fn mistakes(of: &Derivation) -> Vec<Mistake> {
             Edit::Point(index),
         );
     }
-    for name in of.model.coordinates.iter().map(|c| &c.name).filter(|name| **name != of.output) {
+    let seen = of.model.coordinates.iter().filter(|_| of.model.is_printed());
+    for name in seen.map(|c| &c.name).filter(|name| **name != of.output) {
         add(
             MistakeKind::OtherOutput,
             format!("`{name}` is taken as the output instead of `{}`", of.output),

@@ -19,6 +19,7 @@ pub(super) fn feature_routes(name: &str, point: &OperatingPointReference) -> Vec
     for (what, kind, response) in
         [("impulse", InputKind::Impulse, &main.impulse), ("step", InputKind::Step, &main.step)]
     {
+        let Some(response) = response else { continue };
         let features = &response.features;
         agreements.push(limit(format!("{name} {what}: final value"), g, kind, features));
         if let Some(read) = read_off(g, kind, response) {

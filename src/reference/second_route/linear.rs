@@ -5,15 +5,19 @@ use crate::lti::{InputKind, Pole, Stability, matrix_exponential_response};
 use crate::reference::OperatingPointReference;
 
 pub(super) fn linear_routes(name: &str, point: &OperatingPointReference) -> Vec<Agreement> {
-    let mut agreements = vec![transfer_functions(name, point)];
     let main = point.main();
+    let mut agreements: Vec<Agreement> = transfer_functions(name, point).into_iter().collect();
     let linearization = &main.linearization;
     let g = &linearization.transfer_function;
     for (what, routes, found, poles) in [
         (
             "poles of the whole state",
             "roots of the characteristic polynomial against eigenvalues of A",
-            eigenvalues::of_matrix(&linearization.state_space.a),
+            // Of an improper transfer function there is no A.
+            match &linearization.state_space {
+                Some(space) => eigenvalues::of_matrix(&space.a),
+                None => eigenvalues::of_polynomial(&linearization.uncancelled.den),
+            },
             &main.internal_poles,
         ),
         (
@@ -51,6 +55,7 @@ pub(super) fn linear_routes(name: &str, point: &OperatingPointReference) -> Vec<
         ("impulse response", InputKind::Impulse, &main.impulse),
         ("step response", InputKind::Step, &main.step),
     ] {
+        let Some(response) = response else { continue };
         let times: Vec<f64> = (1..=40).map(|i| response.horizon_s * f64::from(i) / 40.0).collect();
         let second = matrix_exponential_response(g, kind, &times).unwrap_or_default();
         let digits = match second.len() {
@@ -68,11 +73,13 @@ pub(super) fn linear_routes(name: &str, point: &OperatingPointReference) -> Vec<
     agreements
 }
 
-/// For every accepted choice of the parameters.
-fn transfer_functions(name: &str, point: &OperatingPointReference) -> Agreement {
+/// For every accepted choice of the parameters; of an improper transfer function there is no state space.
+fn transfer_functions(name: &str, point: &OperatingPointReference) -> Option<Agreement> {
+    point.main().linearization.state_space.as_ref()?;
     let differing = point.accepted.iter().find(|linear| {
         let linearization = &linear.linearization;
-        !linearization.state_space.transfer_function().equals(&linearization.transfer_function)
+        let space = linearization.state_space.as_ref();
+        !space.is_some_and(|space| space.transfer_function().equals(&linearization.transfer_function))
     });
     let all = Agreement::exact(
         format!("{name} transfer function"),
@@ -88,7 +95,7 @@ fn transfer_functions(name: &str, point: &OperatingPointReference) -> Agreement 
         (None, others @ 2..) => format!("also for {} other accepted choices of parameters", others - 1),
         _ => String::new(),
     };
-    Agreement { note, ..all }
+    Some(Agreement { note, ..all })
 }
 
 /// `None` when a pole is too near the axis for its error bound to tell the side.
