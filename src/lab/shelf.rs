@@ -5,7 +5,8 @@ macro_rules! shelf {
 }
 
 /// Labs inside the program: (id, text of the lab file), in the order in which they are listed.
-pub(super) const SHELF: &[(&str, &str)] = shelf!["ee361-lab3", "inverted-pendulum", "dc-motor"];
+pub(super) const SHELF: &[(&str, &str)] =
+    shelf!["ee361-lab3", "inverted-pendulum", "cruise-control", "dc-motor", "ball-and-beam"];
 
 #[cfg(test)]
 mod tests {

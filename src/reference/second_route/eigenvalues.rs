@@ -12,14 +12,17 @@ pub(super) fn of_matrix(matrix: &Matrix) -> Option<Vec<Complex<f64>>> {
     eigenvalues(DMatrix::from_fn(n, n, |i, j| to_f64(&matrix.rows[i][j])))
 }
 
-/// The roots of a polynomial: the eigenvalues of its companion matrix.
+/// The roots of a polynomial: the eigenvalues of its companion matrix, and those at the origin, which it shows openly.
 pub(super) fn of_polynomial(p: &Polynomial) -> Option<Vec<Complex<f64>>> {
-    let (n, lead) = (p.degree(), p.leading()?);
-    eigenvalues(DMatrix::from_fn(n, n, |i, j| match i {
-        0 => -to_f64(&(p.coefficient(n - 1 - j) / lead)),
+    let (zeros, lead) = (p.trailing_zeros(), p.leading()?);
+    let n = p.degree() - zeros;
+    let mut roots = eigenvalues(DMatrix::from_fn(n, n, |i, j| match i {
+        0 => -to_f64(&(p.coefficient(n - 1 - j + zeros) / lead)),
         _ if i == j + 1 => 1.0,
         _ => 0.0,
-    }))
+    }))?;
+    roots.resize(p.degree(), Complex::new(0.0, 0.0));
+    Some(roots)
 }
 
 fn eigenvalues(mut a: DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
@@ -56,4 +59,27 @@ pub(super) fn digits_with(found: Option<Vec<Complex<f64>>>, poles: &[Pole]) -> f
 /// Digits that eigenvalues of poles this often repeated can be expected to agree in.
 pub(super) fn wanted(poles: &[Pole]) -> f64 {
     8.0 / poles.iter().map(|p| p.multiplicity).max().unwrap_or(1) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::algebra::Rational;
+
+    /// Coefficients, highest first, and the roots.
+    #[track_caller]
+    fn check(coefficients: &[i64], roots: &[f64]) {
+        let p = Polynomial::new(coefficients.iter().map(|c| Rational::from(*c)).collect());
+        let mut found: Vec<f64> = of_polynomial(&p).unwrap().iter().map(|z| z.re).collect();
+        found.sort_by(f64::total_cmp);
+        assert_eq!(found.len(), roots.len(), "{found:?}");
+        assert!(found.iter().zip(roots).all(|(x, y)| (x - y).abs() <= 1e-12 * y.abs()), "{found:?}");
+    }
+
+    #[test]
+    fn roots_at_the_origin_are_exact() {
+        check(&[1, 0, 0, 0, 0], &[0.0; 4]);
+        check(&[2, 6, 4, 0, 0], &[-2.0, -1.0, 0.0, 0.0]);
+        check(&[5], &[]);
+    }
 }
