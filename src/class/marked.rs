@@ -10,6 +10,9 @@ pub struct Marked {
     pub scorecard: Scorecard,
     /// The report, relative to the output folder: `reports/EE-001.html`.
     pub report: String,
+    /// (parameter, value as typed) it was marked by; `None` where everyone has the lab's own, empty when it is not known whose
+    /// it is.
+    pub parameters: Option<Vec<(String, String)>>,
     /// polemark itself failed on it.
     pub failed: bool,
 }

@@ -3,13 +3,17 @@
 mod gradebook;
 mod intake;
 mod marked;
+mod numbers;
 mod outcome;
 mod results;
+mod roster;
 mod run;
 mod statistics;
 mod students_seen;
 
 pub use intake::{AnswerFile, IntakeError, find_answer_files};
 pub use marked::Marked;
+pub use numbers::read_with_own_values;
 pub use outcome::Outcome;
+pub use roster::{Roster, RosterError, RosterStudent};
 pub use run::{ClassError, ClassJob, grade_class, read_capped};

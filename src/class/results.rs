@@ -2,6 +2,7 @@ use super::Marked;
 use crate::grading::{Cause, Conflict, Diagnosis, FollowThrough, Ledger};
 use crate::source::Severity;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// One line of `results.jsonl`, without the line end. Fields may be added, never renamed.
 pub fn results_line(marked: &Marked) -> Result<String, serde_json::Error> {
@@ -12,6 +13,10 @@ pub fn results_line(marked: &Marked) -> Result<String, serde_json::Error> {
         submission: &submission.id,
         file: &submission.source.name,
         students: submission.students.iter().map(|s| StudentView { id: &s.id, name: &s.name }).collect(),
+        parameters: marked
+            .parameters
+            .as_ref()
+            .map(|values| values.iter().map(|(name, value)| (name.as_str(), value.as_str())).collect()),
         total: Total {
             earned: tally.earned.as_f64(),
             possible: tally.possible.as_f64(),
@@ -67,6 +72,9 @@ struct Line<'a> {
     submission: &'a str,
     file: &'a str,
     students: Vec<StudentView<'a>>,
+    /// Values as typed in the lab, where they differ from student to student; empty when it is not known whose file it is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    parameters: Option<BTreeMap<&'a str, &'a str>>,
     total: Total,
     items: Vec<Item<'a>>,
     ledger: LedgerView<'a>,

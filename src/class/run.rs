@@ -1,16 +1,21 @@
+use super::Roster;
 use super::gradebook::Gradebook;
 use super::intake::{AnswerFile, UniqueNames};
 use super::marked::{Marked, our_failure, unreadable_submission};
+use super::numbers::{Bench, Benches, Numbers, WithoutNumbers, numbers, own_sheet};
 use super::outcome::Outcome;
 use super::results::results_line;
 use super::statistics::Statistics;
 use super::students_seen::StudentsSeen;
-use crate::grading::{Catalogue, HandMarksFile, grade, leave_to_a_person};
+use crate::grading::{
+    Catalogue, HandMarks, HandMarksFile, MemberCard, Scorecard, grade, grade_beside_members,
+    grade_without_numbers, leave_to_a_person,
+};
 use crate::lab::LabDefinition;
 use crate::reference::Reference;
-use crate::report::ReportKit;
-use crate::source::{Finding, Severity};
-use crate::submission::{Folder, Student, Submission, read};
+use crate::report::{ReportError, ReportKit};
+use crate::source::{Finding, Severity, sanitize};
+use crate::submission::{AnswerSheet, Folder, Student, Submission, read};
 use rayon::prelude::*;
 use std::io::{self, BufWriter, Read, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -30,6 +35,8 @@ pub struct ClassJob<'a> {
     pub catalogue: &'a Catalogue,
     pub kit: &'a ReportKit,
     pub marks: Option<&'a HandMarksFile>,
+    /// The students of the course, where they are known.
+    pub roster: Option<&'a Roster>,
     pub files: &'a [AnswerFile],
     pub out: &'a Path,
     /// Worker threads; 0 is one a core.
@@ -44,6 +51,8 @@ pub enum ClassError {
     Gradebook(#[from] csv::Error),
     #[error("a result cannot be written as JSON: {0}")]
     Json(#[from] serde_json::Error),
+    #[error(transparent)]
+    Report(#[from] ReportError),
     #[error("no worker threads could be started: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
@@ -78,31 +87,31 @@ pub fn grade_class(job: &ClassJob<'_>, progress: &dyn Fn(usize)) -> Result<Outco
     let mut statistics = Statistics::new(job.lab);
     let mut names = UniqueNames::default();
     let mut seen = StudentsSeen::default();
+    let desk =
+        Desk { job, benches: Benches::new(), without: WithoutNumbers::new(job.lab, job.reference, job.kit)? };
     let mut done = 0;
 
     for group in job.files.chunks(GROUP) {
-        let submissions: Vec<Submission> = pool.install(|| {
+        let submissions: Vec<(Submission, Numbers)> = pool.install(|| {
             group
                 .par_iter()
-                .map(|file| read_submission(job.lab, file))
-                .flat_map_iter(|submission| by_hand_marks(submission, job.marks))
+                .map(|file| desk.read(file))
+                .flat_map_iter(|(submission, numbers)| {
+                    let alone = by_hand_marks(submission, job.marks);
+                    alone.into_iter().map(move |one| (one, numbers.clone()))
+                })
                 .collect()
         });
         // Names depend on who came before, so they are given in order.
-        let named: Vec<(Submission, String)> = submissions
+        let named: Vec<Named> = submissions
             .into_iter()
-            .map(|mut submission| {
+            .map(|(mut submission, numbers)| {
                 seen.add(&mut submission);
                 let name = names.claim(&report_stem(&submission));
-                (submission, format!("reports/{name}.html"))
+                Named { submission, numbers, report: format!("reports/{name}.html") }
             })
             .collect();
-        let marked: Vec<Marked> = pool.install(|| {
-            named
-                .into_par_iter()
-                .map(|(submission, report)| mark_and_write(job, submission, report))
-                .collect::<Result<_, _>>()
-        })?;
+        let marked = pool.install(|| desk.mark_all(named))?;
         for marked in &marked {
             writeln!(lines, "{}", results_line(marked)?)
                 .map_err(|error| ClassError::Write { path: results.path.clone(), error })?;
@@ -155,11 +164,11 @@ fn report_stem(submission: &Submission) -> String {
     if ids.is_empty() { submission.id.clone() } else { ids.join("_") }
 }
 
-fn read_submission(lab: &LabDefinition, file: &AnswerFile) -> Submission {
+fn read_submission(file: &AnswerFile, sheet: &AnswerSheet) -> Submission {
     let read = || match read_capped(&file.path) {
         Ok(bytes) => {
             let folder = Folder(file.path.parent().unwrap_or(Path::new("")).to_path_buf());
-            read(&file.id, &file.name, &bytes, &lab.sheet, &folder)
+            read(&file.id, &file.name, &bytes, sheet, &folder)
         }
         Err(error) => unreadable_submission(&file.id, &file.name, not_opened(&error)),
     };
@@ -195,37 +204,133 @@ fn not_opened(error: &io::Error) -> Finding {
     }
 }
 
-fn mark_and_write(
-    job: &ClassJob<'_>,
-    mut submission: Submission,
+/// A submission, by whose numbers it is marked, and where its report goes.
+struct Named {
+    submission: Submission,
+    numbers: Numbers,
     report: String,
-) -> Result<Marked, ClassError> {
-    // Members of a group that are still together were given the same.
-    let marks = job.marks.and_then(|file| Some(file.marks_for(&submission.students.first()?.id)));
-    let mut failed = submission.findings.iter().any(|f| f.code == our_failure().code);
-    let marking = AssertUnwindSafe(|| grade(job.lab, job.reference, job.catalogue, &submission, marks));
-    let scorecard = match catch_unwind(marking) {
-        Ok(card) if !failed => card,
-        _ => {
-            // A reading that failed has said so already.
-            if !failed {
-                submission.findings.push(our_failure());
+}
+
+/// What submissions are marked with.
+struct Desk<'a> {
+    job: &'a ClassJob<'a>,
+    benches: Benches,
+    without: WithoutNumbers,
+}
+
+impl Desk<'_> {
+    /// Reads an answer file with the values that its student has in place of letters.
+    fn read(&self, file: &AnswerFile) -> (Submission, Numbers) {
+        let lab = self.job.lab;
+        let mut submission = read_submission(file, &lab.sheet);
+        let mut own = numbers(lab, &mut submission, self.job.roster);
+        if let Some(sheet) = own.variant().and_then(|variant| own_sheet(lab, variant)) {
+            submission = read_submission(file, &sheet);
+            own = numbers(lab, &mut submission, self.job.roster);
+        }
+        (submission, own)
+    }
+
+    /// In the order given. Submissions with the same numbers are marked one after another, so that what these need is at hand.
+    fn mark_all(&self, named: Vec<Named>) -> Result<Vec<Marked>, ClassError> {
+        let mut numbered: Vec<(usize, Named)> = named.into_iter().enumerate().collect();
+        numbered.sort_by(|(_, one), (_, two)| one.numbers.cmp(&two.numbers));
+        let marked = numbered.into_par_iter().map(|(place, named)| Ok((place, self.mark_and_write(named)?)));
+        let mut marked: Vec<(usize, Marked)> = marked.collect::<Result<_, ClassError>>()?;
+        marked.sort_by_key(|(place, _)| *place);
+        Ok(marked.into_iter().map(|(_, marked)| marked).collect())
+    }
+
+    fn mark_and_write(&self, named: Named) -> Result<Marked, ClassError> {
+        let Named { mut submission, numbers, report } = named;
+        let job = self.job;
+        // Members of a group that are still together were given the same.
+        let marks = job.marks.and_then(|file| Some(file.marks_for(&submission.students.first()?.id)));
+        let mut failed = submission.findings.iter().any(|f| f.code == our_failure().code);
+        let bench = numbers.variant().map(|variant| self.benches.get(job.lab, job.kit, variant));
+        let bench = bench.as_deref();
+        let marking = AssertUnwindSafe(|| self.marked(&numbers, bench, &submission, marks));
+        let scorecard = match catch_unwind(marking) {
+            Ok(Ok(card)) if !failed => card,
+            Ok(Err(finding)) if !failed => {
+                let message = finding.message.clone();
+                submission.findings.push(finding);
+                failed = true;
+                leave_to_a_person(job.lab, &submission, marks, &message)
             }
-            failed = true;
-            leave_to_a_person(job.lab, &submission, marks, &our_failure().message)
+            _ => {
+                // A reading that failed has said so already.
+                if !failed {
+                    submission.findings.push(our_failure());
+                }
+                failed = true;
+                leave_to_a_person(job.lab, &submission, marks, &our_failure().message)
+            }
+        };
+        let kit = match (&numbers, bench) {
+            (Numbers::Lab, _) => job.kit,
+            (_, Some(Ok(bench))) => &bench.kit,
+            _ => self.without.kit(job.kit),
+        };
+        let page = match catch_unwind(AssertUnwindSafe(|| kit.student_page(&submission, &scorecard))) {
+            Ok(page) => page,
+            Err(_) => {
+                failed = true;
+                "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>polemark</title>\
+                 <p>polemark could not write this report. The marks are in gradebook.csv and results.jsonl.</p></html>"
+                    .to_owned()
+            }
+        };
+        NewFile::create(job.out.join(&report))?.write_all(page.as_bytes())?;
+        Ok(Marked { parameters: numbers.values(job.lab), submission, scorecard, report, failed })
+    }
+
+    /// Errors: what does not work with these numbers.
+    fn marked(
+        &self,
+        numbers: &Numbers,
+        bench: Option<&Result<Bench, String>>,
+        submission: &Submission,
+        marks: Option<&HandMarks>,
+    ) -> Result<Scorecard, Finding> {
+        let job = self.job;
+        match (numbers, bench) {
+            (Numbers::Own { members, .. }, Some(Ok(own))) => {
+                if members.is_empty() {
+                    return Ok(grade(&own.lab, &own.reference, &own.catalogue, submission, marks));
+                }
+                let cards = members.iter().filter_map(|(id, variant)| {
+                    let theirs = self.benches.get(job.lab, job.kit, variant);
+                    let theirs = theirs.as_ref().as_ref().ok()?;
+                    let none = Catalogue::default();
+                    let scorecard = grade(&theirs.lab, &theirs.reference, &none, submission, None);
+                    Some(MemberCard { id: id.clone(), scorecard })
+                });
+                let cards: Vec<MemberCard> = cards.collect();
+                let Bench { lab, reference, catalogue, .. } = own;
+                Ok(grade_beside_members(lab, reference, catalogue, submission, marks, &cards))
+            }
+            (Numbers::Own { .. }, Some(Err(why))) => Err(does_not_work(why)),
+            (Numbers::Unknown, _) => {
+                let reference = self.without.reference(job.reference);
+                Ok(grade_without_numbers(job.lab, reference, job.catalogue, submission, marks))
+            }
+            _ => Ok(grade(job.lab, job.reference, job.catalogue, submission, marks)),
         }
-    };
-    let page = match catch_unwind(AssertUnwindSafe(|| job.kit.student_page(&submission, &scorecard))) {
-        Ok(page) => page,
-        Err(_) => {
-            failed = true;
-            "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>polemark</title>\
-             <p>polemark could not write this report. The marks are in gradebook.csv and results.jsonl.</p></html>"
-                .to_owned()
-        }
-    };
-    NewFile::create(job.out.join(&report))?.write_all(page.as_bytes())?;
-    Ok(Marked { submission, scorecard, report, failed })
+    }
+}
+
+fn does_not_work(why: &str) -> Finding {
+    Finding {
+        severity: Severity::Error,
+        code: "variant.fails",
+        message: format!(
+            "The right answers for your numbers could not be worked out ({}), which is not your fault. A person will mark it.",
+            sanitize(why)
+        ),
+        help: None,
+        span: None,
+    }
 }
 
 /// A file that takes its name only when it is whole.

@@ -63,6 +63,7 @@ impl Statistics {
             students: submission.students.clone(),
             file: submission.source.name.clone(),
             report: marked.report.clone(),
+            numbers: numbers_words(marked),
             earned: card.total.earned,
             possible: card.total.possible,
             provisional: card.total.provisional,
@@ -109,6 +110,18 @@ impl Statistics {
     /// At least 1, so that a mean over nobody is 0.
     fn count(&self) -> f64 {
         self.outcome.submissions.max(1) as f64
+    }
+}
+
+/// `M = 0.4, b = 0.1`; empty where everyone has the lab's own.
+fn numbers_words(marked: &Marked) -> String {
+    match &marked.parameters {
+        None => String::new(),
+        Some(values) if values.is_empty() => "not known".to_owned(),
+        Some(values) => {
+            let each = values.iter().map(|(name, value)| format!("{name} = {value}"));
+            each.collect::<Vec<_>>().join(", ")
+        }
     }
 }
 
@@ -172,6 +185,10 @@ fn beginning(marked: &Marked, field: &str) -> String {
 /// Why a person should look, by the kind of answer.
 fn why(item: &ItemScore) -> &'static str {
     match (item.verdict, item.code.split('.').next()) {
+        (Verdict::Unmarked, _) if item.code == "variant.unknown" => "it is not known whose numbers count",
+        (Verdict::Unmarked, _) if item.code == "variant.member" => {
+            "right by the numbers of another member of the group"
+        }
         (Verdict::Unmarked, _) => "polemark could not judge it",
         (Verdict::Unreadable, _) => "something was written that cannot be read",
         (_, Some("concepts")) => "prose is judged by its words only",

@@ -1,7 +1,7 @@
 use super::outcome::{Failure, THEIRS, colour_on_stdout, load_lab, write_output};
 use crate::lab::LabDefinition;
 use crate::report::numbers::counted;
-use crate::source::{Severity, sanitize};
+use crate::source::{Finding, Severity, sanitize};
 use crate::submission::{Folder, Submission, read, self_check};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -38,15 +38,21 @@ fn check_file(lab: &LabDefinition, path: &Path) -> Result<(String, bool), Failur
         crate::class::read_capped(path).map_err(|error| Failure::Read { path: path.to_path_buf(), error })?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let folder = Folder(path.parent().unwrap_or(Path::new("")).to_path_buf());
-    let submission = read(&stem, &path.to_string_lossy(), &bytes, &lab.sheet, &folder);
+    let (submission, values) = crate::class::read_with_own_values(lab, &|sheet| {
+        read(&stem, &path.to_string_lossy(), &bytes, sheet, &folder)
+    });
     let mut findings = submission.findings.clone();
     if submission.readable {
         findings.extend(self_check(&submission, &lab.sheet));
     }
+    if values.as_ref().is_some_and(Vec::is_empty) {
+        findings.push(no_values());
+    }
     let (missing, others): (Vec<_>, Vec<_>) = findings.iter().partition(|f| f.code == "answer.missing");
 
     let colour = colour_on_stdout();
-    let mut text = echo(lab, &submission);
+    let mut text = own_values(&submission, values.as_deref().unwrap_or_default());
+    text.push_str(&echo(lab, &submission));
     for finding in &others {
         text.push_str(&finding.render(&submission.source, colour));
         text.push_str("\n\n");
@@ -69,6 +75,21 @@ fn check_file(lab: &LabDefinition, path: &Path) -> Result<(String, bool), Failur
     );
     text.push_str(&format!("{name}: {counts}\n"));
     Ok((text, wrong == 0 && submission.readable))
+}
+
+/// Whose values stand for the letters, so that a mistyped id is noticed.
+fn own_values(submission: &Submission, values: &[(String, String)]) -> String {
+    let (Some(first), false) = (submission.students.first(), values.is_empty()) else { return String::new() };
+    let values: Vec<String> = values.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+    format!("The values of {} are {}.\n\n", sanitize(&first.id), values.join(", "))
+}
+
+fn no_values() -> Finding {
+    Finding::warning(
+        "variant.unknown",
+        "Values differ from student to student in this lab, and without your id nobody knows which are yours.",
+    )
+    .with_help("Write `student: {id: EE-001, name: A. Student}` with your own id.")
 }
 
 /// How each answer was read, so that a misreading is noticed before the deadline.

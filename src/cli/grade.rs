@@ -1,4 +1,4 @@
-use super::outcome::{Failure, OURS, THEIRS, colour_on_stderr, load_with_reference};
+use super::outcome::{Failure, OURS, THEIRS, colour_on_stderr, load_roster, load_with_reference};
 use crate::class::{ClassJob, Outcome, find_answer_files, grade_class};
 use crate::grading::HandMarksFile;
 use crate::grading::{Catalogue, HandMarks};
@@ -27,6 +27,9 @@ pub struct Arguments {
     /// Marks given by a person: viva, observed rows, changed items; never written to.
     #[arg(long, value_name = "FILE")]
     marks: Option<PathBuf>,
+    /// CSV of the course's students (columns id, name): ids that are not on it are pointed out.
+    #[arg(long, value_name = "FILE")]
+    roster: Option<PathBuf>,
     /// Worker threads, 0 for one a core.
     #[arg(long, value_name = "N", default_value_t = 0)]
     threads: usize,
@@ -39,6 +42,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let (lab, reference) = load_with_reference(arguments.lab.as_deref())?;
     let given = arguments.marks.as_deref().map(|path| load_marks(path, &lab)).transpose()?;
     let marks = given.as_ref().map(|(marks, _)| marks);
+    let roster = arguments.roster.as_deref().map(load_roster).transpose()?;
     let files = find_answer_files(&arguments.paths, arguments.marks.as_deref())?;
     let catalogue = Catalogue::new(&lab, &reference);
     let kit = ReportKit::new(&lab, &reference)?;
@@ -49,6 +53,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         catalogue: &catalogue,
         kit: &kit,
         marks,
+        roster: roster.as_ref(),
         files: &files,
         out: &arguments.out,
         threads: arguments.threads,

@@ -1,4 +1,4 @@
-use super::outcome::{Failure, load_lab, write_output};
+use super::outcome::{Failure, load_lab_of, write_output};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -10,13 +10,17 @@ use std::process::ExitCode;
 pub struct Arguments {
     /// Embedded lab, or path of a lab file [default: ee361-lab3].
     lab: Option<String>,
+    /// A student's own: with the id filled in, and the values that follow from it.
+    #[arg(long, value_name = "ID")]
+    student: Option<String>,
     /// Write to this file instead of standard output; an existing file is left alone.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 }
 
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
-    let template = load_lab(arguments.lab.as_deref())?.answer_template();
+    let id = arguments.student.as_deref();
+    let template = load_lab_of(arguments.lab.as_deref(), id)?.answer_template_for(id.unwrap_or_default(), "");
     match &arguments.out {
         None => write_output(None, &template)?,
         // Somebody's answers may already be in it.

@@ -1,10 +1,10 @@
-use crate::class::{ClassError, IntakeError};
+use crate::class::{ClassError, IntakeError, Roster, RosterError};
 use crate::lab::{LabDefinition, LoadError};
 use crate::reference::{Reference, ReferenceError};
 use crate::report::ReportError;
 use crate::source::sanitize;
 use std::io::{self, IsTerminal, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// The lab's or submission's fault.
@@ -33,6 +33,10 @@ pub enum Failure {
     Output(#[from] io::Error),
     #[error("error: the reference cannot be written as JSON: {0}")]
     Json(#[from] serde_json::Error),
+    #[error("error: {0}")]
+    Roster(#[from] RosterError),
+    #[error("error: {0}")]
+    Student(#[from] StudentError),
     #[error("{rendered}")]
     Marks { rendered: String },
 }
@@ -63,8 +67,44 @@ pub fn load_lab(lab: Option<&str>) -> Result<LabDefinition, Failure> {
     crate::lab::load(lab.unwrap_or(crate::lab::DEFAULT)).map_err(Failure::Load)
 }
 
-pub fn load_with_reference(lab: Option<&str>) -> Result<(LabDefinition, Reference), Failure> {
+/// A roster, and on standard error what to look at in it.
+pub fn load_roster(path: &Path) -> Result<Roster, Failure> {
+    let roster = Roster::load(path)?;
+    for warning in &roster.warnings {
+        eprintln!("warning: {}: {warning}", sanitize(&path.to_string_lossy()));
+    }
+    Ok(roster)
+}
+
+/// Why a lab has no numbers for a student.
+#[derive(Debug, thiserror::Error)]
+pub enum StudentError {
+    #[error("`{lab}` has the same numbers for everyone; leave out `--student`")]
+    SameForAll { lab: String },
+    #[error("the student id `{id}` has no letter or digit in it")]
+    NoId { id: String },
+}
+
+/// The lab with a student's own numbers.
+pub fn load_lab_of(lab: Option<&str>, student: Option<&str>) -> Result<LabDefinition, Failure> {
     let lab = load_lab(lab)?;
+    let Some(id) = student else { return Ok(lab) };
+    let Some(rule) = &lab.variants else {
+        return Err(StudentError::SameForAll { lab: lab.id.clone() }.into());
+    };
+    let variant = rule.of(id).ok_or_else(|| StudentError::NoId { id: sanitize(id).to_string() })?;
+    lab.with_variant(&variant).map_err(|errors| Failure::Load(LoadError::Invalid(errors)))
+}
+
+pub fn load_with_reference(lab: Option<&str>) -> Result<(LabDefinition, Reference), Failure> {
+    load_with_reference_of(lab, None)
+}
+
+pub fn load_with_reference_of(
+    lab: Option<&str>,
+    student: Option<&str>,
+) -> Result<(LabDefinition, Reference), Failure> {
+    let lab = load_lab_of(lab, student)?;
     let reference = Reference::compute(&lab)
         .map_err(|error| Failure::Reference { lab: sanitize(&lab.text.name), error })?;
     Ok((lab, reference))

@@ -25,14 +25,19 @@ pub fn grade(
     hand: Option<&HandMarks>,
 ) -> Scorecard {
     let grader = Grader { reference, catalogue, submission };
+    scorecard(lab, submission, hand, marks(lab, &grader, hand))
+}
+
+/// The marks of each question's criteria before a person has a say.
+pub(super) fn marks(lab: &LabDefinition, grader: &Grader<'_>, hand: Option<&HandMarks>) -> Vec<Vec<Mark>> {
     let mut marks: Vec<Vec<Mark>> = lab.questions.iter().map(|asked| grader.question(asked)).collect();
     let earned = |criterion: &Criterion, mark: &Mark| {
         given(criterion, None, hand).map_or(mark.earned, |given| given.points)
     };
-    spare(lab, &grader, &earned, &mut marks);
-    follow(lab, &grader, &earned, &mut marks);
-    note_conflicts(lab, &grader, &mut marks);
-    scorecard(lab, submission, hand, marks)
+    spare(lab, grader, &earned, &mut marks);
+    follow(lab, grader, &earned, &mut marks);
+    note_conflicts(lab, grader, &mut marks);
+    marks
 }
 
 /// Every criterion left to a person, for `reason`; what `hand` already gives counts.
@@ -48,7 +53,7 @@ pub fn leave_to_a_person(
 }
 
 /// Adds up the marks of each question's criteria, a person's marks in place of ours.
-fn scorecard(
+pub(super) fn scorecard(
     lab: &LabDefinition,
     submission: &Submission,
     hand: Option<&HandMarks>,
@@ -134,7 +139,7 @@ fn position(criterion: &Criterion, submission: &Submission) -> Option<crate::sou
 /// Judges the answers of one submission.
 pub(super) struct Grader<'a> {
     pub reference: &'a Reference,
-    catalogue: &'a Catalogue,
+    pub(super) catalogue: &'a Catalogue,
     pub submission: &'a Submission,
 }
 
@@ -222,7 +227,7 @@ impl<'a> Grader<'a> {
     }
 
     /// The mark of a criterion whose answer is not there, cannot be read, or is not of the kind it judges.
-    fn without_value(&self, criterion: &Criterion, expected: String) -> Mark {
+    pub(super) fn without_value(&self, criterion: &Criterion, expected: String) -> Mark {
         match self.field(&criterion.field) {
             Field::Blank if !self.submission.readable => unreadable_file(expected, self.submission),
             Field::Blank => Mark::blank(expected),

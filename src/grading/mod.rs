@@ -36,6 +36,7 @@ mod stability;
 mod transfer_function;
 mod truth;
 mod value;
+mod whose_numbers;
 
 pub use catalogue::Catalogue;
 pub use diagnosis::{Diagnosis, EquationPlace, Explanation};
@@ -45,6 +46,7 @@ pub use guard::Guard;
 pub use hand_marks::{AlikeMarks, HandMarks, HandMarksFile, Override};
 pub use ledger::{Cause, Ledger, Loss, Spared};
 pub use scorecard::*;
+pub use whose_numbers::{MemberCard, grade_beside_members, grade_without_numbers};
 
 #[cfg(test)]
 mod tests {
@@ -72,6 +74,7 @@ mod tests {
             "slip",
             "units",
             "rounding",
+            "variant",
         ];
         source
             .split('"')
@@ -103,6 +106,7 @@ mod tests {
             include_str!("stability.rs"),
             include_str!("transfer_function.rs"),
             include_str!("value.rs"),
+            include_str!("whose_numbers.rs"),
             include_str!("../model/mistakes/mod.rs"),
         ];
         let all: Vec<_> = sources.iter().flat_map(|source| codes(source)).collect();

@@ -1,4 +1,4 @@
-use super::{AskedFeature, MistakesRule, Points};
+use super::{AskedFeature, MistakesRule, Points, VariantRule};
 use crate::algebra::{Expression, Rational};
 use crate::lti::InputKind;
 use crate::model::{Comparison, Equilibrium, LinearForm, Model, Rest};
@@ -17,7 +17,10 @@ pub struct LabDefinition {
     /// Where the lab comes from, one line.
     pub source_note: String,
     pub outcomes: Vec<Outcome>,
+    /// With the values this definition was made with: the lab's own, or a variant's.
     pub parameters: Vec<Parameter>,
+    /// The parameters that differ from student to student; `None` when everyone has the lab's own.
+    pub variants: Option<VariantRule>,
     pub models: Vec<ModelDefinition>,
     pub simulations: Vec<SimulationDefinition>,
     pub questions: Vec<Question>,

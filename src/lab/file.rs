@@ -4,7 +4,7 @@ use super::linear_file::{ChannelFile, LinearFile};
 use super::schema;
 pub(super) use super::spanned::Spanned;
 use serde::de::value::MapAccessDeserializer;
-use serde::de::{self, Deserialize, Deserializer, IgnoredAny, MapAccess, Visitor};
+use serde::de::{self, Deserialize, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use std::fmt;
 use std::marker::PhantomData;
 
@@ -65,6 +65,8 @@ pub(super) struct LabFile {
     /// Physical parameters by the letter the equations use.
     #[serde(default)]
     pub parameters: Entries<ParameterFile>,
+    /// Who gets which values of the parameters that vary from student to student.
+    pub variants: Option<Spanned<VariantsFile>>,
     /// Systems given by equations of motion, by id.
     #[serde(default)]
     pub models: Entries<ModelFile>,
@@ -114,6 +116,63 @@ pub(super) struct ParameterFile {
     /// Values often used wrongly: looked for when a transfer function is wrong.
     #[serde(default)]
     pub mistaken: Vec<Text>,
+    /// Values students get in place of `value`, each student one of them: `[0.4, 0.5, 0.6]`, or `{from: 0.4, to: 0.6, step: 0.1}`.
+    pub varies: Option<Spanned<VariesFile>>,
+}
+
+/// Values that students get: a list of them, or a range.
+#[derive(Debug)]
+pub(super) enum VariesFile {
+    List(Vec<Text>),
+    Range(RangeFile),
+}
+
+/// From one value to another in steps, both included.
+#[derive(Debug, schemars::JsonSchema, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RangeFile {
+    /// The lowest.
+    pub from: Text,
+    /// The highest, a whole number of steps above.
+    pub to: Text,
+    /// > 0.
+    pub step: Text,
+}
+
+impl<'de> Deserialize<'de> for VariesFile {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct VariesVisitor;
+
+        impl<'de> Visitor<'de> for VariesVisitor {
+            type Value = VariesFile;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a list of values, or `{from, to, step}`")
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Self::Value, A::Error> {
+                let mut values = Vec::new();
+                while let Some(value) = list.next_element()? {
+                    values.push(value);
+                }
+                Ok(VariesFile::List(values))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
+                RangeFile::deserialize(MapAccessDeserializer::new(map)).map(VariesFile::Range)
+            }
+        }
+
+        deserializer.deserialize_any(VariesVisitor)
+    }
+}
+
+/// How students get their values.
+#[derive(Debug, schemars::JsonSchema, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct VariantsFile {
+    /// Any text, one line: another seed gives everyone other values. Default: the lab's id.
+    pub seed: Option<Text>,
 }
 
 /// A system given by its equations of motion, or a linear one by `linear`.

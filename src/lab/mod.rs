@@ -18,6 +18,7 @@ mod sheet;
 mod shelf;
 mod spanned;
 mod template;
+mod variants;
 
 pub use definition::*;
 pub use errors::{LabErrors, LoadError};
@@ -26,3 +27,4 @@ pub use load::{DEFAULT, embedded, load};
 pub use mistakes::{MistakesRule, WithoutEffect, mistake_codes};
 pub use points::Points;
 pub use schema::lab_schema;
+pub use variants::{MOST_VARIANTS, Variant, VariantRule, VariedParameter, folded_id};

@@ -2,7 +2,7 @@
 
 use super::FeatureKind;
 use super::check::{CHECKS, KINDS, SOURCES};
-use super::file::{Entries, FieldFile, FieldForm, LabFile};
+use super::file::{Entries, FieldFile, FieldForm, LabFile, RangeFile, Text, VariesFile};
 use schemars::generate::SchemaSettings;
 use schemars::transform::{Transform, transform_subschemas};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -68,6 +68,22 @@ impl JsonSchema for FieldForm {
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         json_schema!({
             "anyOf": [{ "enum": kinds_and_features() }, generator.subschema_for::<FieldFile>()],
+        })
+    }
+}
+
+impl JsonSchema for VariesFile {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "VariesFile".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "anyOf": [generator.subschema_for::<Vec<Text>>(), generator.subschema_for::<RangeFile>()],
         })
     }
 }

@@ -10,6 +10,12 @@ impl LabDefinition {
     ///
     /// It is YAML that reads as blank, and its examples belong to no question.
     pub fn answer_template(&self) -> String {
+        self.answer_template_for("", "")
+    }
+
+    /// The same with a student's id and name filled in, and in a lab where values differ from student to student the ones
+    /// this definition has. Empty texts stay blank.
+    pub fn answer_template_for(&self, id: &str, name: &str) -> String {
         let total: super::Points = self.questions.iter().map(|q| q.points).sum();
         let units: BTreeMap<&str, &str> = self
             .sheet
@@ -25,8 +31,22 @@ impl LabDefinition {
         page.blank();
         page.line(&format!("lab: {}", self.id));
         page.line("student:");
-        page.line("  id:");
-        page.line("  name:");
+        page.line(format!("  id: {}", quoted(id)).trim_end());
+        page.line(format!("  name: {}", quoted(name)).trim_end());
+        if let Some(rule) = self.variants.as_ref().filter(|_| !id.is_empty()) {
+            page.blank();
+            page.comment("", "Your values, which are not everyone's:");
+            let varied = |name: &str| rule.parameters.iter().any(|one| one.name == name);
+            for one in self.parameters.iter().filter(|one| varied(&one.name)) {
+                page.comment("", &format!("{} = {} {}", one.name, one.text, one.unit));
+            }
+        } else if self.variants.is_some() {
+            page.blank();
+            page.comment(
+                "",
+                "Write your id above: values differ from student to student, and yours follow from it.",
+            );
+        }
         page.blank();
         page.line("answers:");
         for question in &self.questions {
@@ -34,6 +54,30 @@ impl LabDefinition {
         }
         page.text
     }
+}
+
+/// Anybody's text as a YAML scalar on one line: in double quotes, what a file cannot show written as escapes. Nothing for
+/// an empty text.
+fn quoted(text: &str) -> String {
+    if text.is_empty() {
+        return String::new();
+    }
+    let mut quoted = String::from("\"");
+    for letter in text.chars() {
+        match letter {
+            '"' | '\\' => quoted.extend(['\\', letter]),
+            letter if letter.is_control() || is_invisible(letter) => {
+                quoted.push_str(&format!("\\U{:08X}", u32::from(letter)));
+            }
+            letter => quoted.push(letter),
+        }
+    }
+    quoted + "\""
+}
+
+/// Marks that reverse the reading direction, line separators, and the byte order mark.
+fn is_invisible(letter: char) -> bool {
+    matches!(letter, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{feff}' | '\u{fffe}' | '\u{ffff}')
 }
 
 #[derive(Default)]

@@ -8,12 +8,36 @@ use std::collections::BTreeMap;
 ///
 /// `den` is monic, highest power first; times in s, poles in rad/s, everything else in plant units.
 pub fn to_json(reference: &Reference) -> Result<String, serde_json::Error> {
-    serde_json::to_string_pretty(&view(reference))
+    to_json_for(reference, None)
+}
+
+/// Whose numbers a key is for.
+pub struct ForStudent<'a> {
+    /// As given.
+    pub student: &'a str,
+    /// Every parameter with its value as typed.
+    pub parameters: BTreeMap<&'a str, &'a str>,
+}
+
+/// Like [`to_json`], with the student it is for and the values of the parameters.
+pub fn to_json_for(
+    reference: &Reference,
+    student: Option<ForStudent<'_>>,
+) -> Result<String, serde_json::Error> {
+    serde_json::to_string_pretty(&ReferenceView {
+        student: student.as_ref().map(|one| one.student),
+        parameters: student.map(|one| one.parameters),
+        ..view(reference)
+    })
 }
 
 #[derive(Serialize)]
 struct ReferenceView<'a> {
     lab: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    student: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    parameters: Option<BTreeMap<&'a str, &'a str>>,
     models: Vec<ModelView<'a>>,
     simulations: Vec<SimulationView<'a>>,
 }
@@ -103,6 +127,8 @@ struct SimulationView<'a> {
 fn view(reference: &Reference) -> ReferenceView<'_> {
     ReferenceView {
         lab: &reference.lab,
+        student: None,
+        parameters: None,
         models: reference
             .models
             .iter()

@@ -10,7 +10,7 @@ mod types;
 
 pub use compute::ReferenceError;
 pub use expectation::{Disagreement, check_expectations, values_at};
-pub use json::to_json;
+pub use json::{ForStudent, to_json, to_json_for};
 pub use response::ResponseReference;
 pub use second_route::{Agreement, second_route};
 pub use text::to_text;

@@ -18,6 +18,7 @@ use crate::nonlinear::{Block, Nonlinearity, Signal};
 use crate::reference::{
     LinearReference, ModelReference, OperatingPointReference, ResponseReference, SimulationReference,
 };
+use crate::source::sanitize;
 use serde::Serialize;
 
 #[derive(Serialize)]
@@ -26,6 +27,8 @@ pub struct ReferencePage {
     course: String,
     lab_title: String,
     source_note: String,
+    /// Whose numbers these are; empty for the lab's own.
+    student: String,
     parameters: Vec<ParameterView>,
     models: Vec<ModelView>,
     simulations: Vec<SimulationView>,
@@ -131,7 +134,7 @@ struct KeyCriterion {
     points: String,
 }
 
-pub fn page(kit: &ReportKit) -> ReferencePage {
+pub fn page(kit: &ReportKit, student: Option<&str>) -> ReferencePage {
     let lab = &kit.lab;
     let models = lab.models.iter().filter_map(|definition| {
         let reference = kit.reference.models.iter().find(|m| m.id == definition.id)?;
@@ -146,6 +149,7 @@ pub fn page(kit: &ReportKit) -> ReferencePage {
         course: lab.course.clone(),
         lab_title: lab.title.clone(),
         source_note: lab.source_note.clone(),
+        student: student.map_or_else(String::new, |id| sanitize(id).to_string()),
         parameters: parameters(lab),
         models: models.collect(),
         simulations: simulations.collect(),

@@ -23,6 +23,8 @@ pub struct ClassPage {
     review: Vec<ReviewGroup>,
     review_words: String,
     alike_html: String,
+    /// Students have numbers of their own.
+    varied: bool,
     rows: Vec<RowView>,
 }
 
@@ -79,6 +81,7 @@ struct RowView {
     names: String,
     file: String,
     link: String,
+    numbers: String,
     earned: String,
     possible: String,
     provisional: String,
@@ -117,6 +120,7 @@ pub fn page(kit: &ReportKit, summary: &ClassSummary) -> ClassPage {
             String::new()
         },
         review,
+        varied: lab.variants.is_some(),
         rows: summary.rows.iter().map(row).collect(),
     }
 }
@@ -236,6 +240,7 @@ fn row(row: &ClassRow) -> RowView {
         names: if names.is_empty() { "not named".to_owned() } else { names },
         file: sanitize(&row.file),
         link: row.report.clone(),
+        numbers: row.numbers.clone(),
         earned: row.earned.to_string(),
         possible: row.possible.to_string(),
         provisional: provisional_words(row.provisional),

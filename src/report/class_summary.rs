@@ -21,6 +21,8 @@ pub struct ClassRow {
     pub file: String,
     /// Relative, percent-encoded: `reports/a%20b.html`.
     pub report: String,
+    /// The numbers it was marked by, where they differ from student to student: `M = 0.4, b = 0.1`.
+    pub numbers: String,
     pub earned: Points,
     pub possible: Points,
     /// Of the earned points, how many wait for a person.

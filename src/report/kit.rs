@@ -67,6 +67,19 @@ impl ReportKit {
                 .map_err(|source| ReportError::Template { name, source })?;
         }
         environment.add_global("version", env!("CARGO_PKG_VERSION"));
+        Self::within(environment, lab, reference)
+    }
+
+    /// The same for a lab with other numbers, and what is right by them.
+    pub fn with_numbers(&self, lab: &LabDefinition, reference: &Reference) -> Result<Self, ReportError> {
+        Self::within(self.environment.clone(), lab, reference)
+    }
+
+    fn within(
+        environment: Environment<'static>,
+        lab: &LabDefinition,
+        reference: &Reference,
+    ) -> Result<Self, ReportError> {
         let questions =
             lab.questions.iter().map(|q| QuestionKit::new(lab, reference, q)).collect::<Result<_, _>>()?;
         Ok(Self { environment, lab: lab.clone(), reference: reference.clone(), questions })

@@ -11,6 +11,7 @@ mod escape;
 mod explaining_tests;
 pub mod figure;
 pub mod figures;
+mod given;
 mod items;
 mod kit;
 mod ledger;

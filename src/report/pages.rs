@@ -13,7 +13,12 @@ impl ReportKit {
 
     /// The answer key: from the equations to every reference answer.
     pub fn reference_page(&self) -> String {
-        self.render("reference.html", &answer_key::page(self))
+        self.reference_page_for(None)
+    }
+
+    /// The answer key for a student's own numbers.
+    pub fn reference_page_for(&self, student: Option<&str>) -> String {
+        self.render("reference.html", &answer_key::page(self, student))
     }
 
     /// `index.html` of a class.

@@ -1,6 +1,7 @@
 //! One submission's report as a view.
 
 use super::answers;
+use super::given::{self, GivenView};
 use super::kit::{QuestionKit, ReportKit};
 use super::ledger::{self, LedgerView};
 use super::prose;
@@ -23,6 +24,9 @@ pub struct StudentPage {
     students: Vec<StudentView>,
     file: String,
     cover: Vec<BoxView>,
+    /// The student's own values, in a lab where they differ from student to student; empty otherwise.
+    given: Vec<GivenView>,
+    given_words: String,
     findings_intro: &'static str,
     findings: Vec<FindingView>,
     /// What is right, what to look at again, and what it did not cost.
@@ -74,6 +78,8 @@ pub fn page(kit: &ReportKit, submission: &Submission, scorecard: &Scorecard) -> 
         lab_title: lab.title.clone(),
         file: sanitize(&submission.source.name),
         cover: cover(lab, scorecard),
+        given: given::own(lab),
+        given_words: given_words(submission),
         findings_intro: if submission.readable {
             "Only the items named here are affected; everything else was marked as usual."
         } else {
@@ -93,6 +99,17 @@ pub fn page(kit: &ReportKit, submission: &Submission, scorecard: &Scorecard) -> 
             .map(|o| OutcomeView { id: o.id.clone(), text: o.text.clone() })
             .collect(),
         students,
+    }
+}
+
+fn given_words(submission: &Submission) -> String {
+    match submission.students.as_slice() {
+        [first, _, ..] => format!(
+            "Students of this lab have values of their own. A group is marked by those of the first one listed, {}.",
+            sanitize(&first.id)
+        ),
+        _ => "Students of this lab have values of their own. These are yours, and your answers were held against them."
+            .to_owned(),
     }
 }
 

@@ -17,4 +17,5 @@ mod plots;
 mod readme;
 mod switches;
 mod teacher_marks;
+mod variants;
 mod verify;

@@ -18,6 +18,7 @@ mod simulations;
 #[cfg(test)]
 mod tests;
 mod usual;
+mod variants;
 
 pub(super) use cover::SOURCES;
 pub(super) use criteria::CHECKS;
@@ -26,6 +27,7 @@ pub(super) use questions::KINDS;
 use super::file::{Entries, LabFile, QuantityFile, Spanned, Text};
 use super::{LabDefinition, LabErrors, Outcome, SystemRef, defaults, model_answer, read, sheet};
 use crate::source::{Finding, Node, SourceText, Span, Value};
+use std::collections::BTreeMap;
 
 impl LabDefinition {
     /// Reads and checks a lab file.
@@ -33,15 +35,26 @@ impl LabDefinition {
     /// Errors of shape (YAML, unknown or missing keys) come one at a time, since nothing behind them can be read;
     /// everything else is reported at once.
     pub fn parse(text: SourceText) -> Result<Self, LabErrors> {
+        Self::parse_with(text, &BTreeMap::new())
+    }
+
+    /// Reads and checks a lab file with other values (by name, as typed) in place of its parameters' own; everything that
+    /// follows from them is worked out anew.
+    pub fn parse_with(text: SourceText, values: &BTreeMap<String, String>) -> Result<Self, LabErrors> {
         match read::read(&text) {
-            Ok((file, tree)) => definition(&file, &tree, text),
+            Ok((file, tree)) => definition(&file, &tree, text, values),
             Err(finding) => Err(LabErrors { source: text, findings: vec![finding] }),
         }
     }
 }
 
-fn definition(file: &LabFile, tree: &Node, text: SourceText) -> Result<LabDefinition, LabErrors> {
-    let mut checker = Checker { source: &text, findings: Vec::new() };
+fn definition(
+    file: &LabFile,
+    tree: &Node,
+    text: SourceText,
+    values: &BTreeMap<String, String>,
+) -> Result<LabDefinition, LabErrors> {
+    let mut checker = Checker { source: &text, values, findings: Vec::new() };
     let lab = checker.lab(file, tree);
     let mut findings = checker.findings;
     match lab {
@@ -58,6 +71,8 @@ fn definition(file: &LabFile, tree: &Node, text: SourceText) -> Result<LabDefini
 /// Collects what is wrong while the parts are built. A part that cannot be built is `None`, and has a finding.
 struct Checker<'a> {
     source: &'a SourceText,
+    /// What some parameters are worth in place of their own value.
+    values: &'a BTreeMap<String, String>,
     findings: Vec<Finding>,
 }
 
@@ -138,6 +153,7 @@ impl Checker<'_> {
         });
         let outcomes: Vec<Outcome> = outcomes.collect();
         let parameters = self.parameters(file);
+        let variants = self.variants(file);
         let models = self.models(file, parameters.as_ref());
         let simulations = self.simulations(file, &names);
         let given = self.defaults(&file.tolerances, &file.follow_through);
@@ -160,6 +176,7 @@ impl Checker<'_> {
             source_note: file.source.trim().to_owned(),
             outcomes,
             parameters,
+            variants: variants?,
             models: models?,
             simulations: simulations?,
             questions,

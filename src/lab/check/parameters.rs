@@ -20,7 +20,7 @@ impl Checker<'_> {
         for (name, p) in &file.parameters.0 {
             self.symbol(name, "parameter");
             match (&p.value, &p.formula) {
-                (Some(value), None) => match self.number(value) {
+                (Some(value), None) => match self.value(name, value) {
                     Some(value) => {
                         given.insert(name.value.clone(), value);
                     }
@@ -69,7 +69,7 @@ impl Checker<'_> {
                 Some((text.value.trim().to_owned(), own.formula.clone()))
             });
             let text = match (&p.value, &formula) {
-                (Some(text), _) => text.value.clone(),
+                (Some(text), _) => self.values.get(&name.value).unwrap_or(&text.value).clone(),
                 (None, Some((formula, _))) => shown(formula, value),
                 (None, None) => String::new(),
             };

@@ -1,0 +1,202 @@
+use super::Roster;
+use crate::grading::Catalogue;
+use crate::lab::{LabDefinition, SystemRef, Variant};
+use crate::reference::Reference;
+use crate::report::{ReportError, ReportKit};
+use crate::source::{Finding, Severity, sanitize};
+use crate::submission::{AnswerSheet, Submission};
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// By whose numbers a submission is marked.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Numbers {
+    /// Everyone has the lab's own.
+    Lab,
+    /// Those of its first student, and of other members of the group where they differ: (id, variant).
+    Own { variant: Variant, members: Vec<(String, Variant)> },
+    /// Whose it is is not known.
+    Unknown,
+}
+
+impl Numbers {
+    /// (parameter, value as typed); `None` where everyone has the lab's own, empty when it is not known whose it is.
+    pub fn values(&self, lab: &LabDefinition) -> Option<Vec<(String, String)>> {
+        let values = |variant: &Variant| -> Vec<(String, String)> {
+            let pairs = lab.variants.iter().flat_map(|rule| rule.values(variant));
+            pairs.map(|(name, value)| (name.to_owned(), value.to_owned())).collect()
+        };
+        match self {
+            Self::Lab => None,
+            Self::Unknown => Some(Vec::new()),
+            Self::Own { variant, .. } => Some(values(variant)),
+        }
+    }
+
+    pub fn variant(&self) -> Option<&Variant> {
+        match self {
+            Self::Own { variant, .. } => Some(variant),
+            _ => None,
+        }
+    }
+}
+
+/// By whose numbers `submission` is marked; an id that is not on the roster becomes a finding.
+pub fn numbers(lab: &LabDefinition, submission: &mut Submission, roster: Option<&Roster>) -> Numbers {
+    let Some(rule) = &lab.variants else { return Numbers::Lab };
+    let Some(variant) = first_id(submission).and_then(|id| rule.of(id)) else { return Numbers::Unknown };
+    let members = submission.students.iter().skip(1).filter_map(|student| {
+        let other = rule.of(&student.id).filter(|other| *other != variant)?;
+        Some((student.id.clone(), other))
+    });
+    let members = members.collect();
+    if let Some(roster) = roster {
+        for student in submission.students.iter().filter(|student| !roster.has(&student.id)) {
+            submission.findings.push(Finding {
+                severity: Severity::Warning,
+                code: "student.not_on_roster",
+                message: format!(
+                    "The student id `{}` is not on the list of the course. The numbers that belong to it as it is typed were \
+                     used; a person has to look at it.",
+                    sanitize(&student.id)
+                ),
+                help: None,
+                span: None,
+            });
+        }
+    }
+    Numbers::Own { variant, members }
+}
+
+/// The id of the first student, when it stands in the file: the file's own name says nothing about numbers.
+fn first_id(submission: &Submission) -> Option<&str> {
+    let stands_in = ["student.missing", "student.id_missing"];
+    let first = submission.students.first()?;
+    let missing = submission.findings.iter().any(|finding| stands_in.contains(&finding.code));
+    (!missing || first.id != submission.id).then_some(first.id.as_str())
+}
+
+/// A lab with everything computed that marking needs.
+pub struct Bench {
+    pub lab: LabDefinition,
+    pub reference: Reference,
+    pub catalogue: Catalogue,
+    pub kit: ReportKit,
+}
+
+impl Bench {
+    /// Errors: in words, what does not work with these numbers.
+    pub fn new(lab: &LabDefinition, kit: &ReportKit, variant: &Variant) -> Result<Self, String> {
+        let lab = lab.with_variant(variant).map_err(|errors| errors.to_string())?;
+        let reference = Reference::compute(&lab).map_err(|error| error.to_string())?;
+        let catalogue = Catalogue::new(&lab, &reference);
+        let kit = kit.with_numbers(&lab, &reference).map_err(|error| error.to_string())?;
+        Ok(Self { lab, reference, catalogue, kit })
+    }
+}
+
+/// Benches are made when they are needed; the most lately used are kept.
+///
+/// What is kept decides how long a run takes, never what comes out.
+pub struct Benches {
+    kept: Mutex<Kept>,
+}
+
+/// Benches kept at a time. One takes a megabyte or a few.
+const MOST_KEPT: usize = 24;
+
+#[derive(Default)]
+struct Kept {
+    clock: u64,
+    benches: BTreeMap<Variant, (u64, Arc<Result<Bench, String>>)>,
+}
+
+impl Benches {
+    pub fn new() -> Self {
+        Self { kept: Mutex::default() }
+    }
+
+    pub fn get(&self, lab: &LabDefinition, kit: &ReportKit, variant: &Variant) -> Arc<Result<Bench, String>> {
+        if let Some(bench) = self.kept().find(variant) {
+            return bench;
+        }
+        // Two threads may make the same one: both are the same, and neither waits.
+        let bench = Arc::new(Bench::new(lab, kit, variant));
+        self.kept().keep(variant, &bench);
+        bench
+    }
+
+    /// What is kept is whole even if somebody failed while looking.
+    fn kept(&self) -> std::sync::MutexGuard<'_, Kept> {
+        self.kept.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Kept {
+    fn find(&mut self, variant: &Variant) -> Option<Arc<Result<Bench, String>>> {
+        self.clock += 1;
+        let (used, bench) = self.benches.get_mut(variant)?;
+        *used = self.clock;
+        Some(Arc::clone(bench))
+    }
+
+    fn keep(&mut self, variant: &Variant, bench: &Arc<Result<Bench, String>>) {
+        self.clock += 1;
+        self.benches.insert(variant.clone(), (self.clock, Arc::clone(bench)));
+        while self.benches.len() > MOST_KEPT {
+            let oldest = self.benches.iter().min_by_key(|(_, (used, _))| *used);
+            let Some(oldest) = oldest.map(|(variant, _)| variant.clone()) else { return };
+            self.benches.remove(&oldest);
+        }
+    }
+}
+
+/// An answer file read by `read`, with its student's values for the letters, and these as [`Numbers::values`] gives them.
+pub fn read_with_own_values(
+    lab: &LabDefinition,
+    read: &dyn Fn(&AnswerSheet) -> Submission,
+) -> (Submission, Option<Vec<(String, String)>>) {
+    let mut submission = read(&lab.sheet);
+    let own = numbers(lab, &mut submission, None);
+    if let Some(sheet) = own.variant().and_then(|variant| own_sheet(lab, variant)) {
+        submission = read(&sheet);
+    }
+    (submission, own.values(lab))
+}
+
+/// What an answer file may hold, with a variant's values for the letters; `None` when the lab cannot be read with them, which
+/// marking tells.
+pub fn own_sheet(lab: &LabDefinition, variant: &Variant) -> Option<AnswerSheet> {
+    lab.with_variant(variant).ok().map(|lab| lab.sheet)
+}
+
+/// What is right whoever it is from: for submissions of which that is not known.
+pub struct WithoutNumbers {
+    own: Option<(Reference, ReportKit)>,
+}
+
+impl WithoutNumbers {
+    /// Errors: a reference curve that cannot be drawn.
+    pub fn new(lab: &LabDefinition, reference: &Reference, kit: &ReportKit) -> Result<Self, ReportError> {
+        if lab.variants.is_none() {
+            return Ok(Self { own: None });
+        }
+        let mut reference = reference.clone();
+        for model in &mut reference.models {
+            let of = |point: &str| SystemRef { model: model.id.clone(), operating_point: point.to_owned() };
+            model.operating_points.retain(|point| !lab.is_varied(&of(&point.id)));
+        }
+        let mut lab = lab.clone();
+        lab.parameters.clear();
+        let kit = kit.with_numbers(&lab, &reference)?;
+        Ok(Self { own: Some((reference, kit)) })
+    }
+
+    pub fn reference<'a>(&'a self, whole: &'a Reference) -> &'a Reference {
+        self.own.as_ref().map_or(whole, |(reference, _)| reference)
+    }
+
+    pub fn kit<'a>(&'a self, whole: &'a ReportKit) -> &'a ReportKit {
+        self.own.as_ref().map_or(whole, |(_, kit)| kit)
+    }
+}

@@ -1,0 +1,236 @@
+//! A lab whose numbers differ from student to student, and a class that answers it.
+
+use polemark::lab::{self, LabDefinition};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const LAB: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/it/variants.yaml");
+
+fn pendulum() -> LabDefinition {
+    lab::load(LAB).expect("the lab is right")
+}
+
+/// What a student was given.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Given {
+    m: f64,
+    l: f64,
+    b: f64,
+}
+
+fn given(lab: &LabDefinition, id: &str) -> Given {
+    let own = lab.with_variant(&lab.variant_of(id).expect("an id")).expect("a variant");
+    let value = |name: &str| {
+        let one = own.parameters.iter().find(|one| one.name == name).expect("a parameter");
+        one.text.parse().expect("a number")
+    };
+    Given { m: value("m"), l: value("l"), b: value("b") }
+}
+
+/// An answer file, right for `given`; the formulas are those of a pendulum, not of the program.
+fn answers(students: &str, given: Given) -> String {
+    let Given { m, l, b } = given;
+    let (inertia, weight) = (m * l * l, m * 9.81 * l);
+    let decay = b / (2.0 * inertia);
+    let frequency = (weight / inertia - decay * decay).sqrt();
+    let upright = (weight / inertia + decay * decay).sqrt();
+    let at = |t: f64| (-decay * t).exp() * (frequency * t).sin() / (inertia * frequency);
+    let rows: String =
+        (0..=50).map(|i| f64::from(i) * 0.1).map(|t| format!("      {t:.1}, {:.5}\n", at(t))).collect();
+    format!(
+        "lab: pendulum-of-ones-own\n{students}\nanswers:\n  \
+         down.transfer_function: 1/({inertia:.6}s^2 + {b}s + {weight:.6})\n  \
+         down.response:\n    \
+         poles: [{:.5} ± {frequency:.5}j]\n    \
+         period: {:.5}\n    \
+         final_value: 0\n    shape: decaying oscillation\n    stability: stable\n    \
+         description: It swings and comes to rest.\n    data: |\n{rows}  \
+         up.transfer_function: 1/({inertia:.6}s^2 + {b}s - {weight:.6})\n  \
+         up.response:\n    poles: [{:.5}, {:.5}]\n    stability: unstable\n  bearing: Coulomb friction\n",
+        -decay,
+        2.0 * std::f64::consts::PI / frequency,
+        upright - decay,
+        -upright - decay,
+    )
+}
+
+fn of(id: &str) -> String {
+    format!("student: {{id: {id}, name: Student {id}}}")
+}
+
+struct Class {
+    folder: tempfile::TempDir,
+}
+
+impl Class {
+    fn new() -> Self {
+        Self { folder: tempfile::tempdir().expect("a folder") }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn hand_in(&self, name: &str, text: &str) {
+        let folder = self.path("in");
+        std::fs::create_dir_all(&folder).expect("made");
+        std::fs::write(folder.join(name), text).expect("written");
+    }
+
+    #[track_caller]
+    fn run(&self, arguments: &[&str], code: i32) -> String {
+        let output = Command::new(env!("CARGO_BIN_EXE_polemark"))
+            .args(arguments)
+            .current_dir(self.folder.path())
+            .env("NO_COLOR", "1")
+            .output()
+            .expect("the program starts");
+        let text = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).expect("UTF-8"));
+        assert_eq!(output.status.code(), Some(code), "{}", text.concat());
+        text.concat()
+    }
+
+    /// Marks what was handed in; a line of `results.jsonl` each, by file name.
+    #[track_caller]
+    fn grade(&self, more: &[&str]) -> BTreeMap<String, Value> {
+        let arguments = ["grade", "in", "--out", "out", "--lab", LAB];
+        self.run(&[&arguments[..], more].concat(), 0);
+        let lines = self.read("out/results.jsonl");
+        let lines = lines.lines().map(|line| serde_json::from_str::<Value>(line).expect("JSON"));
+        lines.map(|line| (line["file"].as_str().expect("a name").to_owned(), line)).collect()
+    }
+
+    fn read(&self, name: &str) -> String {
+        std::fs::read_to_string(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+    }
+}
+
+fn earned(line: &Value) -> f64 {
+    line["total"]["earned"].as_f64().expect("points")
+}
+
+/// (criterion, code) of what waits for a person because of whose numbers it is.
+fn left(line: &Value) -> Vec<(&str, &str)> {
+    let items = line["items"].as_array().expect("items").iter();
+    let pairs = items.map(|item| (item["id"].as_str().expect("id"), item["code"].as_str().expect("code")));
+    pairs.filter(|(_, code)| code.starts_with("variant.")).collect()
+}
+
+#[test]
+fn everyone_is_marked_by_their_own_numbers() {
+    let (lab, class) = (pendulum(), Class::new());
+    for number in 0..24 {
+        let id = format!("ME-{number:03}");
+        class.hand_in(&format!("{id}.yaml"), &answers(&of(&id), given(&lab, &id)));
+    }
+    let marked = class.grade(&[]);
+    assert_eq!(marked.len(), 24);
+    for (name, line) in &marked {
+        let given = given(&lab, name.trim_end_matches(".yaml"));
+        assert_eq!(earned(line), 20.0, "{name}: {given:?} {line:#}");
+        let m = line["parameters"]["m"].as_str().expect("a value").parse::<f64>().expect("a number");
+        assert_eq!(m, given.m, "{name}");
+    }
+    let different: std::collections::BTreeSet<String> =
+        marked.values().map(|line| line["parameters"].to_string()).collect();
+    assert!(different.len() > 15, "{different:?}");
+    // A student's own values, and nobody else's.
+    let page = class.read("out/reports/ME-003.html");
+    assert!(page.contains("What was given") && page.contains("These are yours"));
+    assert!(!page.contains("ME-004"));
+    assert!(class.read("out/index.html").contains("Own values"));
+}
+
+#[test]
+fn letters_stand_for_ones_own_values() {
+    let (lab, class) = (pendulum(), Class::new());
+    let ids = ["ME-001", "ME-002"];
+    assert_ne!(given(&lab, ids[0]), given(&lab, ids[1]));
+    for id in ids {
+        let text = format!(
+            "lab: pendulum-of-ones-own\n{}\nanswers:\n  down.transfer_function: 1/(m*l^2*s^2 + b*s + m*g*l)\n",
+            of(id)
+        );
+        class.hand_in(&format!("{id}.yaml"), &text);
+        let Given { m, l, b } = given(&lab, id);
+        let echo = class.run(&["check", &format!("in/{id}.yaml"), "--lab", LAB], 0);
+        assert!(echo.contains(&format!("The values of {id} are m = {m}, l = {l}, b = {b}.")), "{echo}");
+    }
+    for line in class.grade(&[]).values() {
+        assert_eq!(earned(line), 5.0, "{line:#}");
+    }
+}
+
+#[test]
+fn without_an_id_nothing_that_depends_on_it_is_marked() {
+    let (lab, class) = (pendulum(), Class::new());
+    let right = given(&lab, "ME-001");
+    class.hand_in("ME-001.yaml", &answers("student:", right));
+    class.hand_in("named.yaml", &answers("student: {name: A. Student}", right));
+    class.hand_in("dashes.yaml", &answers("student: {id: \"--\"}", right));
+    for (name, line) in class.grade(&[]) {
+        assert_eq!(earned(&line), 1.0, "only the question about the bearing: {name}");
+        assert_eq!(left(&line).len(), 14, "{name}: {line:#}");
+        assert!(left(&line).iter().all(|(_, code)| *code == "variant.unknown"));
+        assert_eq!(line["parameters"], serde_json::json!({}));
+    }
+    let page = class.read("out/reports/named.html");
+    assert!(page.contains("not known whose answer this is") && !page.contains("What was given"));
+    for value in ["24.525", "4.942"] {
+        assert!(!page.contains(value), "the lab's own {value} is nobody's");
+    }
+    class.run(&["check", "in/named.yaml", "--lab", LAB], 1);
+}
+
+#[test]
+fn a_group_is_marked_by_its_first_students_numbers() {
+    let (lab, class) = (pendulum(), Class::new());
+    let students = "students: [{id: ME-001, name: One}, {id: ME-002, name: Two}]";
+    class.hand_in("first.yaml", &answers(students, given(&lab, "ME-001")));
+    class.hand_in("second.yaml", &answers(students, given(&lab, "ME-002")));
+    let marked = class.grade(&[]);
+    assert_eq!((earned(&marked["first.yaml"]), left(&marked["first.yaml"]).len()), (20.0, 0));
+    let left = left(&marked["second.yaml"]);
+    assert!(left.contains(&("down.transfer_function.denominator", "variant.member")), "{left:?}");
+    assert!(left.iter().all(|(_, code)| *code == "variant.member"));
+    let lost: Vec<_> = marked["second.yaml"]["items"]
+        .as_array()
+        .expect("items")
+        .iter()
+        .filter(|item| item["verdict"] != "right" && item["verdict"] != "unmarked")
+        .collect();
+    assert!(lost.is_empty(), "nothing is a zero: {lost:#?}");
+}
+
+#[test]
+fn an_id_that_is_not_on_the_roster_is_pointed_out() {
+    let (lab, class) = (pendulum(), Class::new());
+    for id in ["ME-001", "ME-777"] {
+        class.hand_in(&format!("{id}.yaml"), &answers(&of(id), given(&lab, id)));
+    }
+    std::fs::write(class.path("roster.csv"), "Name,Student ID\nOne,me 001\nTwo,ME-002\n").expect("written");
+    let marked = class.grade(&["--roster", "roster.csv"]);
+    let findings = |name: &str| marked[name]["findings"].to_string();
+    assert!(!findings("ME-001.yaml").contains("not_on_roster"));
+    assert!(findings("ME-777.yaml").contains("student.not_on_roster"));
+    assert_eq!(earned(&marked["ME-777.yaml"]), 20.0);
+}
+
+#[test]
+fn keys_and_templates_are_a_students_own() {
+    let class = Class::new();
+    let key = class.run(&["reference", LAB, "--student", "EE-001"], 0);
+    assert!(key.starts_with("For EE-001: m = 0.7 kg, l = 0.35 m, b = 0.04 N m s\n"), "{key}");
+    assert!(key.contains("1 / (0.08575s^2 + 0.04s + 2.40345)"), "{key}");
+    let json = class.run(&["reference", LAB, "--student", "EE-001", "--format", "json"], 0);
+    let json: Value = serde_json::from_str(&json).expect("JSON");
+    assert_eq!((&json["student"], &json["parameters"]["m"]), (&"EE-001".into(), &"0.7".into()));
+    let page = class.run(&["reference", LAB, "--student", "<b>1", "--format", "html"], 0);
+    assert!(page.contains("For the numbers of &lt;b&gt;1"));
+    let template = class.run(&["new", LAB, "--student", "a\"b: [c"], 0);
+    assert!(template.contains("id: \"a\\\"b: [c\"") && template.contains("# m = 0."), "{template}");
+    class.run(&["new", "--student", "EE-001"], 2);
+    assert!(Path::new(LAB).exists());
+}
