@@ -4,22 +4,31 @@ use crate::lab::{LabDefinition, ModelDefinition, OperatingPointDefinition};
 use crate::lti::TransferFunction;
 use crate::model::Mistake;
 use crate::reference::Reference;
+use std::collections::BTreeSet;
 
 /// Mistakes that no answer tells apart are listed; one that no answer tells from the truth must be declared by the lab.
 ///
-/// A declaration that no mistake needs fails as well.
+/// It is enough that an answer tells it at one of a model's operating points: a term in one input cannot matter to another's
+/// transfer function. A declaration that no mistake needs fails as well.
 pub(super) fn mistakes_are_told_apart(lab: &LabDefinition, reference: &Reference) -> Vec<Check> {
     let mut checks = Vec::new();
     let mut needed = vec![false; lab.mistakes.without_effect.len()];
     for model in &lab.models {
-        for point in model.operating_points.iter().filter(|point| is_asked(lab, model, point)) {
-            let accepted = right_functions(reference, model, point);
-            let led = Led::new(lab, model, point, &accepted);
+        let asked = model.operating_points.iter().filter(|point| is_asked(lab, model, point));
+        let led: Vec<_> = asked
+            .map(|point| (point, Led::new(lab, model, point, &right_functions(reference, model, point))))
+            .collect();
+        let told: BTreeSet<&str> = led
+            .iter()
+            .flat_map(|(_, led)| led.groups.iter().flatten().chain(&led.none))
+            .map(|mistake| mistake.change.as_str())
+            .collect();
+        for (point, led) in &led {
             for (needed, entry) in needed.iter_mut().zip(&lab.mistakes.without_effect) {
                 *needed |= led.nowhere.iter().any(|mistake| entry.covers(mistake, &model.model));
             }
             checks.push(led.apart(model, point));
-            checks.push(led.beside_the_truth(lab, model, point));
+            checks.push(led.beside_the_truth(lab, model, point, &told));
         }
     }
     for (entry, _) in lab.mistakes.without_effect.iter().zip(needed).filter(|(_, needed)| !needed) {
@@ -39,6 +48,8 @@ struct Led {
     groups: Vec<Vec<Mistake>>,
     /// Mistakes that lead to a right one.
     nowhere: Vec<Mistake>,
+    /// Mistakes that leave no function to write down: it is 0, or the equations cannot be solved any more.
+    none: Vec<Mistake>,
 }
 
 impl Led {
@@ -50,12 +61,15 @@ impl Led {
     ) -> Self {
         let derivation = model.derivation(point, &lab.parameters);
         let mut known: Vec<TransferFunction> = Vec::new();
-        let mut own = Self { groups: Vec::new(), nowhere: Vec::new() };
+        let mut own = Self { groups: Vec::new(), nowhere: Vec::new(), none: Vec::new() };
         for mistake in derivation.mistakes() {
             if lab.mistakes.weight(mistake.kind.code()) == 0 {
                 continue;
             }
-            let Some(function) = derivation.function(&[&mistake]) else { continue };
+            let Some(function) = derivation.function(&[&mistake]) else {
+                own.none.push(mistake);
+                continue;
+            };
             let comparable = function.cancelled().0.monic();
             if accepted.iter().any(|right| right.equals(&comparable)) {
                 own.nowhere.push(mistake);
@@ -97,20 +111,33 @@ impl Led {
         lab: &LabDefinition,
         model: &ModelDefinition,
         point: &OperatingPointDefinition,
+        told: &BTreeSet<&str>,
     ) -> Check {
         let declared = |mistake: &&Mistake| {
             // A linear model is given as it is, hidden states included: there a term without effect is no mistyped equation.
             model.linear.is_some()
                 || lab.mistakes.without_effect.iter().any(|entry| entry.covers(mistake, &model.model))
         };
-        let undeclared: Vec<Mistake> =
-            self.nowhere.iter().filter(|mistake| !declared(mistake)).cloned().collect();
+        let elsewhere = |mistake: &&Mistake| told.contains(mistake.change.as_str());
+        let undeclared: Vec<Mistake> = self
+            .nowhere
+            .iter()
+            .filter(|mistake| !declared(mistake) && !elsewhere(mistake))
+            .cloned()
+            .collect();
+        let told_elsewhere = self.nowhere.iter().filter(|mistake| !declared(mistake) && elsewhere(mistake));
         Check {
             what: format!("mistakes without effect at {}.{}", model.id, point.id),
             found: match (undeclared.as_slice(), self.nowhere.len()) {
                 ([], 0) => "there are none".to_owned(),
                 ([], count) if model.linear.is_some() => format!("{count}, in a linear model as it is given"),
-                ([], count) => format!("{count}, all declared"),
+                ([], count) => match told_elsewhere.count() {
+                    0 => format!("{count}, all declared"),
+                    told if told == count => format!("{count}, all told at another operating point"),
+                    told => format!(
+                        "{count}, of which {told} are told at another operating point, the rest declared"
+                    ),
+                },
                 (undeclared, _) => format!(
                     "no answer shows {}; declare what is meant to be so under `mistakes: {{without_effect: […]}}`",
                     listed(&changes(undeclared), "and")

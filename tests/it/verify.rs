@@ -180,6 +180,52 @@ fn a_mistake_that_no_answer_shows_must_be_declared() {
 }
 
 #[test]
+fn a_term_in_one_input_need_not_matter_to_another() {
+    const TWO_INPUTS: &str = r#"
+lab: cart
+title: A cart with a motor, in the wind
+parameters:
+  m: {value: 2, unit: kg}
+  c: {value: 3, unit: N s/m}
+models:
+  cart:
+    title: Cart
+    coordinates: {v: {unit: m/s}}
+    inputs: {F: {unit: N}, w: {unit: m/s}}
+    equations: ["m*v' = F - c*(v - w)"]
+    operating_points:
+      motor: {title: Motor, input: F, output: v}
+      wind: {title: Wind, input: w, output: v}
+total: 2
+questions:
+  motor:
+    number: Question 1
+    title: Motor
+    points: 1
+    about: cart.motor
+    answer: {kind: transfer_function, prompt: V(s)/F(s)}
+    criteria: {all: {title: All, points: 1, check: denominator}}
+  wind:
+    number: Question 2
+    title: Wind
+    points: 1
+    about: cart.wind
+    answer: {kind: transfer_function, prompt: V(s)/W(s)}
+    criteria: {all: {title: All, points: 1, check: denominator}}
+cover: {total: 2, rows: {questions: {title: Questions, points: 2, from: questions}}}
+"#;
+    assert_eq!(failing(TWO_INPUTS), [""; 0]);
+    // Where only the motor is asked for, nothing would notice a mistyped wind.
+    let motor_alone = TWO_INPUTS.replace("about: cart.wind", "about: cart.motor");
+    let found = failing(&motor_alone);
+    assert_eq!(found.len(), 1, "{found:#?}");
+    assert!(
+        found[0].contains("no answer shows `equation 1: w -> -w` and `equation 1: w -> 0`"),
+        "{found:#?}"
+    );
+}
+
+#[test]
 fn mistakes_that_no_answer_tells_apart_are_listed() {
     let lab = lab::load(lab::DEFAULT).expect("the embedded lab parses");
     let reference = Reference::compute(&lab).expect("the embedded lab has a reference");
