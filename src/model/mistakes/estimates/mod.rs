@@ -5,7 +5,7 @@ mod slopes;
 use self::setting::{Setting, exchanged};
 use self::slopes::{Summand, Variant, summands};
 use super::edit::{Edit, WholeEdit};
-use super::real::{MOST_COORDINATES, RealFunction, RealPolynomial};
+use super::real::{Entry, MOST_COORDINATES, RealFunction, RealPolynomial};
 use super::{Derivation, Mistake};
 use crate::algebra::{Expression, Rational, to_f64};
 use std::collections::BTreeMap;
@@ -27,7 +27,7 @@ pub struct Estimates {
     variants: Vec<Vec<Variant>>,
     /// By coordinate: where the columns of its derivatives begin.
     columns: Vec<usize>,
-    /// The columns of the inputs begin here.
+    /// The columns of the inputs begin here, as many for each as an [`Entry`] has powers.
     inputs_begin: usize,
     /// Few enough coordinates, and every slope at the point is a number.
     usable: bool,
@@ -106,8 +106,20 @@ impl Estimates {
 
     /// No function that two mistakes lead to has a numerator or denominator of a higher degree.
     pub fn highest_degree(&self) -> usize {
+        let model = &self.derivation.model;
+        let inputs = model.inputs.iter().map(|name| usize::from(model.order_of(name))).max().unwrap_or(0);
         // Of the determinant, and one more for a factor `s` too many.
-        self.inputs_begin - self.columns.len() + 1
+        self.inputs_begin - self.columns.len() + inputs + 1
+    }
+
+    /// Where the columns of an input and its derivatives begin.
+    fn input_begins(&self, place: usize) -> usize {
+        self.inputs_begin + place * Entry::default().len()
+    }
+
+    /// Where the columns end.
+    fn width(&self) -> usize {
+        self.input_begins(self.derivation.model.inputs.len())
     }
 
     /// Visits what each mistake leads to with each choice of parameter values; what cannot be solved is left out.
@@ -219,6 +231,13 @@ mod tests {
             &[("p", "rad"), ("q", "rad"), ("i", "A")],
             &[("J", "3", "kg m^2"), ("K", "7", "kg m^2"), ("c", "2", ""), ("k", "11", ""), ("R", "5", "")],
             &["J*p'' + c*p' + k*(p - q) = k*i", "K*q'' = k*(p - q)", "R*i + i' + c*p' = F + d"],
+            &[],
+        ),
+        // A wheel on a tyre: the road acts through its rate as well, and its curvature here.
+        (
+            &[("x", "m"), ("y", "m")],
+            &[("m", "3", "kg"), ("M", "5", "kg"), ("c", "2", ""), ("k", "11", "N/m"), ("K", "7", "N/m")],
+            &["m*x'' = c*(F' - x') + k*(F - x) - K*(x - y) + d''", "M*y'' = K*(x - y) - c*d'"],
             &[],
         ),
     ];

@@ -51,7 +51,7 @@ impl Estimates {
     }
 
     pub(super) fn run(&self, slopes: &Slopes, values: &[f64], stack: &mut Vec<f64>) -> Vec<f64> {
-        let mut row = vec![0.0; self.inputs_begin + self.derivation.model.inputs.len()];
+        let mut row = vec![0.0; self.width()];
         for (column, program) in slopes {
             row[*column] = program.run(values, stack);
         }
@@ -97,7 +97,7 @@ impl Estimates {
         if ports.output >= n || ports.input >= self.derivation.model.inputs.len() {
             return None;
         }
-        let width = self.inputs_begin + self.derivation.model.inputs.len();
+        let width = self.width();
         let mut rows = vec![(0.0, 0.0); n * width];
         for (equation, terms) in setting.summands.iter().enumerate() {
             for (summand, own) in terms.iter().enumerate() {
@@ -125,8 +125,12 @@ impl Estimates {
         };
         let replaced = |row: usize, column: usize| {
             if column == ports.output {
-                let (value, size) = rows[row * width + self.inputs_begin + ports.input];
-                ([-value, 0.0, 0.0], [size, 0.0, 0.0])
+                let begin = row * width + self.input_begins(ports.input);
+                let (mut value, mut size) = (Entry::default(), Entry::default());
+                for (power, (slope, sum)) in rows[begin..begin + value.len()].iter().enumerate() {
+                    (value[power], size[power]) = (-slope, *sum);
+                }
+                (value, size)
             } else {
                 entry(row, column)
             }

@@ -43,11 +43,10 @@ impl Estimates {
         let moving = orders.iter().zip(&self.columns).flat_map(|((name, order), begin)| {
             (0..=*order).map(move |primes| (name.as_str(), primes, begin + usize::from(primes)))
         });
-        let inputs = model
-            .inputs
-            .iter()
-            .enumerate()
-            .map(|(place, name)| (name.as_str(), 0, self.inputs_begin + place));
+        let inputs = model.inputs.iter().enumerate().flat_map(|(place, name)| {
+            let begin = self.input_begins(place);
+            (0..=model.order_of(name)).map(move |primes| (name.as_str(), primes, begin + usize::from(primes)))
+        });
         let mut found = Slopes::new();
         for (name, primes, column) in moving.chain(inputs) {
             let slope = node.differentiate(name, primes);
