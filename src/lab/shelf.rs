@@ -5,8 +5,16 @@ macro_rules! shelf {
 }
 
 /// Labs inside the program: (id, text of the lab file), in the order in which they are listed.
-pub(super) const SHELF: &[(&str, &str)] =
-    shelf!["ee361-lab3", "inverted-pendulum", "cruise-control", "dc-motor", "ball-and-beam"];
+pub(super) const SHELF: &[(&str, &str)] = shelf![
+    "ee361-lab3",
+    "inverted-pendulum",
+    "cruise-control",
+    "dc-motor",
+    "ball-and-beam",
+    "magnetic-levitation",
+    "coupled-tanks",
+    "suspension",
+];
 
 #[cfg(test)]
 mod tests {
