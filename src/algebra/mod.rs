@@ -5,6 +5,8 @@ mod coprime;
 mod expression;
 mod greek;
 mod matrix;
+mod multivariate;
+mod multivariate_gcd;
 mod number_text;
 mod polynomial;
 mod polynomial_determinant;
@@ -14,6 +16,7 @@ mod symbol_mathml;
 
 pub use expression::{Expression, ExpressionError, Function, NodeKind, SymbolUse};
 pub use matrix::Matrix;
+pub use multivariate::{Budget, Letter, Monomial, MultivariatePolynomial, OverBudget};
 pub use number_text::{number_mathml, significant};
 pub use polynomial::Polynomial;
 pub use polynomial_determinant::polynomial_determinant;
