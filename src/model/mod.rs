@@ -5,6 +5,7 @@ mod equations;
 mod equilibrium;
 mod exact;
 mod linear_form;
+mod letters;
 mod linearization;
 mod mistakes;
 mod motion;
@@ -19,6 +20,9 @@ pub use equations::{Coordinate, Equation, Model, ModelError};
 pub use equilibrium::Equilibrium;
 pub use exact::Exact;
 pub use linear_form::{LinearForm, Root};
+pub use letters::{
+    AtRest, LetterAgreement, LetterDerivation, LetterEquation, LetterTerm, LettersError, Signal,
+};
 pub use linearization::{Linearization, linearize};
 pub use mistakes::{Derivation, Estimates, Mistake, MistakeKind, Pair, Place, RealFunction, RealPolynomial};
 pub use parameters::{DerivedParameter, DerivedParameters, ParameterValues};

@@ -1,0 +1,212 @@
+use super::*;
+use crate::algebra::parse_decimal;
+use crate::model::{Coordinate, linearize};
+
+/// A system and what a textbook derives for it.
+struct Textbook {
+    name: &'static str,
+    coordinates: &'static [&'static str],
+    inputs: &'static [&'static str],
+    parameters: &'static [(&'static str, &'static str)],
+    equations: &'static [&'static str],
+    at: &'static [(&'static str, &'static str)],
+    /// output, num, den: as they are shown.
+    output: &'static str,
+    num: &'static str,
+    den: &'static str,
+    cancelled: &'static str,
+}
+
+const CART: Textbook = Textbook {
+    name: "pendulum on a cart, hanging",
+    coordinates: &["x", "theta"],
+    inputs: &["F"],
+    parameters: &[("M", "0.5"), ("b", "0.1"), ("m", "0.2"), ("l", "0.3"), ("I", "0.006"), ("g", "9.81")],
+    equations: &[
+        "F = (M + m)*x'' + b*x' + m*l*theta''*cos(theta) - m*l*theta'^2*sin(theta)",
+        "(I + m*l^2)*theta'' + m*g*l*sin(theta) + m*l*x''*cos(theta) = 0",
+    ],
+    at: &[],
+    output: "theta",
+    num: "-m*l*s",
+    den: "((M + m)*(I + m*l^2) - m^2*l^2)*s^3 + b*(I + m*l^2)*s^2 + m*g*l*(M + m)*s + b*m*g*l",
+    cancelled: "s",
+};
+
+#[track_caller]
+fn check(book: &Textbook) {
+    let coordinate = |n: &&str| Coordinate { name: (*n).into(), unit: String::new(), description: String::new() };
+    let model = Model::new(
+        book.coordinates.iter().map(coordinate).collect(),
+        book.inputs.iter().map(|n| (*n).to_owned()).collect(),
+        book.parameters.iter().map(|(n, _)| (*n).to_owned()).collect(),
+        book.equations,
+    )
+    .unwrap();
+    let parameters: BTreeMap<String, Rational> =
+        book.parameters.iter().map(|(n, v)| ((*n).to_owned(), parse_decimal(v).unwrap())).collect();
+    let pairs: Vec<_> = book.at.iter().map(|(n, t)| ((*n).to_owned(), (*t).to_owned())).collect();
+    let at = Equilibrium::parse(&model, &parameters, &pairs).unwrap();
+    let derivation = LetterDerivation::derive(&model, &parameters, &at, book.inputs[0], book.output).unwrap();
+    println!("{}\n  {}\n  {}\n", book.name, derivation.num, derivation.den);
+    for (a,b) in &derivation.rest_equations { println!("  rest {a} = {b}"); }
+    if book.num.is_empty() || book.den.is_empty() { return; }
+    assert_eq!(derivation.num.to_string(), book.num, "{}", book.name);
+    assert_eq!(derivation.den.to_string(), book.den, "{}", book.name);
+    let cancelled = derivation.cancelled.as_ref().map(ToString::to_string).unwrap_or_default();
+    assert_eq!(cancelled, book.cancelled, "{}", book.name);
+    let numeric = linearize(&model, &parameters, &at, book.inputs[0], book.output).unwrap();
+    let agreement = derivation.agreement(&numeric.transfer_function);
+    assert!(
+        agreement == LetterAgreement::Exact || (!numeric.exact && matches!(agreement, LetterAgreement::Within(_))),
+        "{}: {agreement:?}",
+        book.name
+    );
+}
+
+#[test]
+fn as_textbooks_derive_them() {
+    check(&CART);
+    check(&Textbook {
+        name: "upright",
+        at: &[("theta", "pi")],
+        num: "m*l*s",
+        den: "((M + m)*(I + m*l^2) - m^2*l^2)*s^3 + b*(I + m*l^2)*s^2 - m*g*l*(M + m)*s - b*m*g*l",
+        ..CART
+    });
+    check(&Textbook {
+        name: "DC motor, position",
+        coordinates: &["theta", "i"],
+        inputs: &["V"],
+        parameters: &[("J", "0.01"), ("b", "0.1"), ("K", "0.01"), ("R", "1"), ("L", "0.5")],
+        equations: &["J*theta'' + b*theta' = K*i", "L*i' + R*i = V - K*theta'"],
+        at: &[],
+        output: "theta",
+        num: "K",
+        den: "J*L*s^3 + (J*R + b*L)*s^2 + (b*R + K^2)*s",
+        cancelled: "",
+    });
+    check(&Textbook {
+        name: "tank with a free outflow",
+        coordinates: &["h"],
+        inputs: &["q"],
+        parameters: &[("A", "2"), ("k", "0.5")],
+        equations: &["A*h' = q - k*sqrt(h)"],
+        at: &[("h", "4"), ("q", "1")],
+        output: "h",
+        num: "2*sqrt(h_0)",
+        den: "2*A*sqrt(h_0)*s + k",
+        cancelled: "",
+    });
+    check(&Textbook {
+        name: "magnetic levitation",
+        coordinates: &["x", "i"],
+        inputs: &["V"],
+        parameters: &[("m", "0.05"), ("g", "9.81"), ("K", "0.0001"), ("L", "0.01"), ("R", "1")],
+        equations: &["m*x'' = m*g - K*(i/x)^2", "V = R*i + L*i'"],
+        at: &[("x", "0.01"), ("i", "0.01*sqrt(0.05*9.81/0.0001)"), ("V", "0.01*sqrt(0.05*9.81/0.0001)")],
+        output: "x",
+        num: "",
+        den: "",
+        cancelled: "",
+    });
+    check(&Textbook {
+        name: "two tanks",
+        coordinates: &["h1", "h2"],
+        inputs: &["q"],
+        parameters: &[("A1", "2"), ("A2", "1"), ("k1", "0.5"), ("k2", "0.5")],
+        equations: &["A1*h1' = q - k1*sqrt(h1 - h2)", "A2*h2' = k1*sqrt(h1 - h2) - k2*sqrt(h2)"],
+        at: &[("h1", "8"), ("h2", "4"), ("q", "1")],
+        output: "h2",
+        num: "",
+        den: "",
+        cancelled: "",
+    });
+    check(&Textbook {
+        name: "ball and beam",
+        coordinates: &["r"],
+        inputs: &["theta"],
+        parameters: &[("J", "0.00001"), ("R", "0.015"), ("m", "0.11"), ("g", "9.8"), ("d", "0.03"), ("L", "1")],
+        equations: &["(J/R^2 + m)*r'' = -m*g*sin(d/L*theta)"],
+        at: &[],
+        output: "r",
+        num: "",
+        den: "",
+        cancelled: "",
+    });
+    check(&Textbook {
+        name: "series RLC",
+        coordinates: &["v", "i"],
+        inputs: &["u"],
+        parameters: &[("R", "10"), ("L", "0.1"), ("C", "0.001")],
+        equations: &["L*i' + R*i + v = u", "C*v' = i"],
+        at: &[],
+        output: "v",
+        num: "1",
+        den: "L*C*s^2 + R*C*s + 1",
+        cancelled: "",
+    });
+    check(&Textbook {
+        name: "suspension of two masses",
+        coordinates: &["x1", "x2"],
+        inputs: &["F"],
+        parameters: &[("m1", "2500"), ("m2", "320"), ("k1", "80000"), ("k2", "500000"), ("c1", "350"), ("c2", "15020")],
+        equations: &[
+            "m1*x1'' = -k1*(x1 - x2) - c1*(x1' - x2') + F",
+            "m2*x2'' = k1*(x1 - x2) + c1*(x1' - x2') - k2*x2 - c2*x2' - F",
+        ],
+        at: &[],
+        output: "x1",
+        num: "",
+        den: "",
+        cancelled: "",
+    });
+    check(&Textbook {
+        name: "cruise control with drag",
+        coordinates: &["v"],
+        inputs: &["F"],
+        parameters: &[("m", "1000"), ("rho", "1.2"), ("C_d", "0.3"), ("A", "2"), ("b", "50")],
+        equations: &["m*v' = F - b*v - 1/2*rho*C_d*A*v*abs(v)"],
+        at: &[("v", "20"), ("F", "50*20 + 0.5*1.2*0.3*2*400")],
+        output: "v",
+        num: "1",
+        den: "m*s + b + rho*C_d*A*v_0",
+        cancelled: "",
+    });
+    check(&Textbook {
+        name: "pendulum held at an angle",
+        coordinates: &["theta"],
+        inputs: &["T"],
+        parameters: &[("m", "1"), ("g", "9.81"), ("l", "0.5"), ("c", "0.1")],
+        equations: &["m*l^2*theta'' + c*theta' + m*g*l*sin(theta) = T"],
+        at: &[("theta", "0.5"), ("T", "1*9.81*0.5*sin(0.5)")],
+        output: "theta",
+        num: "1",
+        den: "m*l^2*s^2 + c*s + m*g*l*cos(theta_0)",
+        cancelled: "",
+    });
+    check(&Textbook {
+        name: "pendulum held at 30 degrees",
+        coordinates: &["theta"],
+        inputs: &["T"],
+        parameters: &[("m", "1"), ("g", "9.81"), ("l", "0.5"), ("c", "0.1")],
+        equations: &["m*l^2*theta'' + c*theta' + m*g*l*sin(theta) = T"],
+        at: &[("theta", "pi/6"), ("T", "9.81*0.25")],
+        output: "theta",
+        num: "2",
+        den: "",
+        cancelled: "",
+    });
+    check(&Textbook {
+        name: "orifice",
+        coordinates: &["h"],
+        inputs: &["q"],
+        parameters: &[("A", "1"), ("a", "0.01"), ("g", "9.81")],
+        equations: &["A*h' = q - a*sqrt(2*g*h)"],
+        at: &[("h", "2"), ("q", "0.01*sqrt(2*9.81*2)")],
+        output: "h",
+        num: "",
+        den: "",
+        cancelled: "",
+    });
+}
