@@ -255,7 +255,8 @@ impl MultivariatePolynomial {
 
     /// By powers of `letter`, lowest first; empty for zero.
     pub fn coefficients_of(&self, letter: Letter) -> Vec<Self> {
-        let mut parts = vec![Self::zero(); if self.is_zero() { 0 } else { self.degree_in(letter) as usize + 1 }];
+        let mut parts =
+            vec![Self::zero(); if self.is_zero() { 0 } else { self.degree_in(letter) as usize + 1 }];
         for (monomial, coefficient) in &self.terms {
             let part = &mut parts[monomial.power_of(letter) as usize];
             part.terms.insert(monomial.without(letter), coefficient.clone());

@@ -108,7 +108,12 @@ impl Poly {
     }
 
     /// A multiple of the remainder by `divisor` as polynomials in `letter`.
-    fn pseudo_remainder(&self, divisor: &Self, letter: Letter, budget: &mut Budget) -> Result<Self, OverBudget> {
+    fn pseudo_remainder(
+        &self,
+        divisor: &Self,
+        letter: Letter,
+        budget: &mut Budget,
+    ) -> Result<Self, OverBudget> {
         let degree = divisor.degree_in(letter);
         let lead = divisor.coefficients_of(letter).pop().unwrap_or_default();
         let mut rest = self.clone();
@@ -142,7 +147,10 @@ impl Poly {
             let parts = p.coefficients_of(letter);
             let lead_before = parts.len();
             let values = parts.iter().rev().map(|part| {
-                part.eval(&|l| Rational::from(PLACES[usize::from(l) % PLACES.len()] + l / 16), &Rational::clone)
+                part.eval(
+                    &|l| Rational::from(PLACES[usize::from(l) % PLACES.len()] + l / 16),
+                    &Rational::clone,
+                )
             });
             let value = Polynomial::new(values.collect());
             (value.coefficients().len() == lead_before).then_some(value)
@@ -171,7 +179,8 @@ impl Poly {
         for (letter, power) in monomial.powers() {
             factors.push((Self::letter(*letter), *power));
         }
-        let rest = primitive.exact_quotient(&Self::term(Rational::ONE, monomial), budget)?.unwrap_or_default();
+        let rest =
+            primitive.exact_quotient(&Self::term(Rational::ONE, monomial), budget)?.unwrap_or_default();
         let mut open = vec![rest];
         while let Some(part) = open.pop() {
             if part.as_constant().is_some() {

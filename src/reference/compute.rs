@@ -2,7 +2,7 @@ use super::*;
 use crate::algebra::Rational;
 use crate::lab::{LabDefinition, ModelDefinition, OperatingPointDefinition, SimulationDefinition};
 use crate::lti::{InputKind, ResponseError, RootError, roots, stability};
-use crate::model::{ModelError, compare, linearize};
+use crate::model::{LetterDerivation, ModelError, compare, linearize};
 use crate::nonlinear::{ChainError, Run, simulate, without_nonlinearities};
 use std::collections::BTreeMap;
 
@@ -104,6 +104,13 @@ fn operating_point_reference(
         output: point.output.clone(),
         output_unit: point.output_unit.clone(),
         accepted,
+        letters: LetterDerivation::derive(
+            &definition.model,
+            &choices[0].values,
+            &point.at,
+            &point.input,
+            &point.output,
+        ),
         comparison,
     })
 }

@@ -57,6 +57,8 @@ struct OperatingPointView<'a> {
     input: &'a str,
     output: &'a str,
     transfer_function: TransferFunctionView,
+    /// The derivation in the lab's own letters; null when it takes more terms than a page holds.
+    letters: Option<super::letters::Steps>,
     poles: Vec<PoleView>,
     zeros: Vec<PoleView>,
     stability: &'static str,
@@ -162,6 +164,7 @@ fn operating_point_view(point: &OperatingPointReference) -> OperatingPointView<'
         input: &point.input,
         output: &point.output,
         transfer_function: transfer_function_view(main),
+        letters: point.letters.as_ref().ok().map(super::letters::steps),
         poles: pole_views(&main.poles),
         zeros: pole_views(&main.zeros),
         stability: main.stability.as_str(),

@@ -3,6 +3,7 @@
 mod compute;
 mod expectation;
 mod json;
+mod letters;
 mod response;
 mod second_route;
 mod text;

@@ -67,6 +67,7 @@ fn operating_point(text: &mut String, model: &str, point: &OperatingPointReferen
             format_args!("  cancelled: {factor}, from {}", main.linearization.uncancelled.to_text(FIGURES)),
         );
     }
+    text.push_str(&super::letters::text(&point.letters));
     line(text, format_args!("  poles: {} rad/s", roots_text(&main.poles)));
     line(text, format_args!("  zeros: {} rad/s", roots_text(&main.zeros)));
     line(text, format_args!("  transfer function: {}", main.stability.words()));

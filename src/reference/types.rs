@@ -1,7 +1,7 @@
 use super::ResponseReference;
 use crate::algebra::Rational;
 use crate::lti::{InputKind, Pole, Stability};
-use crate::model::{ComparisonRun, Linearization};
+use crate::model::{ComparisonRun, LetterDerivation, LettersError, Linearization};
 use crate::nonlinear::Run;
 
 /// Every right answer of a lab.
@@ -33,6 +33,8 @@ pub struct OperatingPointReference {
     pub output_unit: String,
     /// `[0]` follows the lab's own parameter values; the rest, accepted alternatives.
     pub accepted: Vec<LinearReference>,
+    /// The transfer function in the lab's own letters, step by step; or why there is none.
+    pub letters: Result<LetterDerivation, LettersError>,
     /// The linear model beside the nonlinear equations; `None` where they are not compared.
     pub comparison: Option<ComparisonRun>,
 }

@@ -1,6 +1,7 @@
 //! The answer key as a view: from the equations to every reference answer. Says nothing that is not in the lab or computed from it.
 
 use super::anchor::{anchor, question_anchor};
+use super::derivation::DerivationView;
 use super::figures::{
     PreparedResponse, PreparedSimulation, StudentCurves, characteristic_figure, comparison_figure,
     feature_words, limit_words, pole_zero, root_words,
@@ -64,6 +65,7 @@ struct PointView {
     /// There was nothing to linearize.
     given_linear: bool,
     linear_html: Vec<String>,
+    derivation: DerivationView,
     state_html: String,
     space_html: Vec<String>,
     from_to: String,
@@ -229,6 +231,7 @@ fn point(
         },
         given_linear,
         linear_html: linearization.linear_equations.iter().map(|e| math::linear_equation(e)).collect(),
+        derivation: DerivationView::of(&point.letters),
         state_html: math::state_vector(&linearization.states),
         space_html: linearization.state_space.as_ref().map_or_else(Vec::new, |space| {
             math::state_space(&space.a, &space.b, &space.c, &space.d).to_vec()

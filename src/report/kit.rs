@@ -45,11 +45,12 @@ pub enum ReportError {
     Template { name: &'static str, source: minijinja::Error },
 }
 
-const TEMPLATES: [(&str, &str); 6] = [
+const TEMPLATES: [(&str, &str); 7] = [
     ("base.html", include_str!("../../templates/base.html")),
     ("parts.html", include_str!("../../templates/parts.html")),
     ("style.css", include_str!("../../templates/style.css")),
     ("student.html", include_str!("../../templates/student.html")),
+    ("derivation.html", include_str!("../../templates/derivation.html")),
     ("reference.html", include_str!("../../templates/reference.html")),
     ("class.html", include_str!("../../templates/class.html")),
 ];

@@ -6,6 +6,7 @@ mod answers;
 mod class_page;
 mod class_summary;
 mod conflicts;
+mod derivation;
 mod escape;
 #[cfg(test)]
 mod explaining_tests;

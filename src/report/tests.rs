@@ -344,6 +344,7 @@ fn templates_quote_every_attribute_and_trust_only_markup_of_ours() {
         include_str!("../../templates/parts.html"),
         include_str!("../../templates/student.html"),
         include_str!("../../templates/reference.html"),
+        include_str!("../../templates/derivation.html"),
         include_str!("../../templates/class.html"),
     ];
     for template in templates {

@@ -6,7 +6,8 @@ use super::signal::{Signal, capital};
 use super::symbolic::{at_rest, evaluate};
 use super::{AtRest, LetterDerivation, LetterEquation, LetterFunction, LetterTerm, Trouble, order};
 use crate::algebra::{
-    Budget, Expression, Function, Monomial, MultivariatePolynomial as Poly, NodeKind, Rational, exact_root, to_f64,
+    Budget, Expression, Function, Monomial, MultivariatePolynomial as Poly, NodeKind, Rational, exact_root,
+    to_f64,
 };
 use std::collections::BTreeMap;
 
@@ -50,6 +51,10 @@ pub(super) fn derive(
         forcing.push(slopes(input)?.iter().map(Fraction::negated).collect::<Vec<_>>());
     }
 
+    for (i, (row, forced)) in rows.iter_mut().zip(&mut forcing).enumerate() {
+        turn(&ring, i, row, forced, budget)?;
+    }
+
     let names = Names { model, rest: &rest, input };
     let writer = Writer { ring: &ring, names: &names };
     let linear = writer.equations(&rows, &forcing, false, budget)?;
@@ -58,8 +63,10 @@ pub(super) fn derive(
     let without_fractions =
         if had_fractions { Some(writer.equations(&rows, &forcing, true, budget)?) } else { None };
 
-    let matrix: Vec<Vec<Poly>> =
-        rows.iter().map(|row| row.iter().map(|slopes| in_s(slopes, budget)).collect()).collect::<Result<_, _>>()?;
+    let matrix: Vec<Vec<Poly>> = rows
+        .iter()
+        .map(|row| row.iter().map(|slopes| in_s(slopes, budget)).collect())
+        .collect::<Result<_, _>>()?;
     let right: Vec<Poly> = forcing.iter().map(|slopes| in_s(slopes, budget)).collect::<Result<_, _>>()?;
     let place = model.coordinates.iter().position(|c| c.name == output).ok_or(Trouble::Undefined)?;
     let mut replaced = matrix.clone();
@@ -70,19 +77,24 @@ pub(super) fn derive(
     if den.is_zero() {
         return Err(Trouble::Undefined);
     }
-    let (numerator, denominator) = (ring.collected(&num, budget)?, ring.collected(&den, budget)?);
+    let plain = (Monomial::default(), Rational::ONE);
+    let shown =
+        |poly: &Poly, rows: &[Vec<Poly>], (shared, factor): (&Monomial, &Rational), budget: &mut Budget| {
+            let parts = products(rows, budget)?;
+            let parts = parts.as_ref().map(|parts| (parts.as_slice(), shared, factor));
+            Ok::<_, Trouble>(ring.by_powers_of_s(coefficients(&ring, poly, parts, budget)?))
+        };
+    let numerator = shown(&num, &replaced, (&plain.0, &plain.1), budget)?;
+    let denominator = shown(&den, &matrix, (&plain.0, &plain.1), budget)?;
 
     let (short_num, short_den, shared) = ring.shortened(num, den, budget)?;
     let factor = scale(&ring, &short_num, &short_den);
     let (short_num, short_den) = (short_num.scaled(&factor), short_den.scaled(&factor));
-    let monomial = shared.leading().filter(|_| shared.term_count() == 1).map(|(monomial, _)| monomial.clone());
-    let shown = |poly: &Poly, rows: &[Vec<Poly>], budget: &mut Budget| -> Result<Expression, Trouble> {
-        let parts = products(rows, budget)?;
-        let parts = match (&parts, &monomial) {
-            (Some(parts), Some(monomial)) => Some((parts.as_slice(), monomial, &factor)),
-            _ => None,
-        };
-        Ok(ring.by_powers_of_s(coefficients(&ring, poly, parts, budget)?))
+    let monomial =
+        shared.leading().filter(|_| shared.term_count() == 1).map(|(monomial, _)| monomial.clone());
+    let short = |poly: &Poly, rows: &[Vec<Poly>], budget: &mut Budget| match &monomial {
+        Some(monomial) => shown(poly, rows, (monomial, &factor), budget),
+        None => ring.collected(poly, budget),
     };
     let cancelled = match shared.as_constant() {
         Some(_) => None,
@@ -103,12 +115,32 @@ pub(super) fn derive(
         numerator,
         denominator,
         cancelled,
-        num: shown(&short_num, &replaced, budget)?,
-        den: shown(&short_den, &matrix, budget)?,
+        num: short(&short_num, &replaced, budget)?,
+        den: short(&short_den, &matrix, budget)?,
         forcing: right.iter().map(|entry| ring.collected(entry, budget)).collect::<Result<_, _>>()?,
         matrix: written(&matrix, budget)?,
         function: LetterFunction { ring: ring.clone(), num: short_num, den: short_den },
     })
+}
+
+/// Turns the signs of an equation so that its own coordinate, or the first term, has none.
+fn turn(
+    ring: &Ring,
+    own: usize,
+    row: &mut [Vec<Fraction>],
+    forced: &mut [Fraction],
+    budget: &mut Budget,
+) -> Result<(), Trouble> {
+    let highest = |slopes: &Vec<Fraction>| slopes.iter().rev().find(|slope| !slope.is_zero()).cloned();
+    let Some(first) = row.get(own).and_then(highest).or_else(|| row.iter().find_map(highest)) else {
+        return Ok(());
+    };
+    if ring.fraction_form(&first, budget)?.negative {
+        for slope in row.iter_mut().flatten().chain(forced) {
+            *slope = slope.negated();
+        }
+    }
+    Ok(())
 }
 
 /// What numerator and denominator are multiplied by: no fraction of small numbers, no common whole number, and a leading
@@ -121,9 +153,10 @@ fn scale(ring: &Ring, num: &Poly, den: &Poly) -> Rational {
     if contents.iter().all(|c| small(c) || !decimal(c)) {
         let monomial = |c: &Rational, letter| Poly::term(c.clone(), Monomial::letter(letter, 1));
         let mut budget = Budget::new(100);
-        let both = contents.iter().enumerate().try_fold(Poly::zero(), |sum, (i, c)| {
-            sum.plus(&monomial(c, i as u16), &mut budget)
-        });
+        let both = contents
+            .iter()
+            .enumerate()
+            .try_fold(Poly::zero(), |sum, (i, c)| sum.plus(&monomial(c, i as u16), &mut budget));
         factor = Rational::ONE / both.map_or(Rational::ONE, |both| both.content());
     }
     let lead = den.coefficients_of(S).pop().unwrap_or_default();
@@ -211,7 +244,8 @@ impl Rest {
         ring.pi();
         let own = model.parameters.iter().filter(|name| parameters.contains_key(*name));
         let rest = model.coordinates.iter().map(|c| &c.name).chain(&model.inputs);
-        let names: Vec<String> = own.chain(rest.filter(|name| self.letters.contains_key(*name))).cloned().collect();
+        let names: Vec<String> =
+            own.chain(rest.filter(|name| self.letters.contains_key(*name))).cloned().collect();
         for name in order::as_written(model, names) {
             let (letter, value) = match self.letters.get(&name) {
                 Some((letter, value)) => (letter.clone(), value.clone()),
@@ -264,7 +298,8 @@ impl Rest {
 /// The least common denominator of the powers in which a name stands by itself: 2 for √h, 1 where there are none.
 fn root_order(model: &Model, name: &str) -> u32 {
     fn visit(node: &Expression, name: &str, order: &mut u32) {
-        let is_name = |a: &Expression| matches!(&a.kind, NodeKind::Symbol { name: n, primes: 0 } if n == name);
+        let is_name =
+            |a: &Expression| matches!(&a.kind, NodeKind::Symbol { name: n, primes: 0 } if n == name);
         let found = match &node.kind {
             NodeKind::Call(Function::Sqrt, a) if is_name(a) => 2,
             NodeKind::Power(a, b) if is_name(a) => match &b.kind {
@@ -334,11 +369,7 @@ impl Writer<'_> {
             for (coordinate, slopes) in self.names.model.coordinates.iter().zip(row) {
                 left.extend(self.terms(&coordinate.name, slopes, in_s, budget)?);
             }
-            let mut right = self.terms(self.names.input, forced, in_s, budget)?;
-            let first = left.first().or(right.first());
-            if first.is_some_and(|term| term.negative) {
-                left.iter_mut().chain(&mut right).for_each(|term| term.negative = !term.negative);
-            }
+            let right = self.terms(self.names.input, forced, in_s, budget)?;
             equations.push(LetterEquation { left, right });
         }
         Ok(equations)

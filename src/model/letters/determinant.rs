@@ -23,7 +23,8 @@ pub(super) fn determinant(ring: &Ring, rows: &[Vec<Poly>], budget: &mut Budget) 
 
 fn without<T: Clone>(rows: &[Vec<T>], i: usize, j: usize) -> Vec<Vec<T>> {
     let rest = rows.iter().enumerate().filter(|(row, _)| *row != i);
-    rest.map(|(_, row)| row.iter().enumerate().filter(|(c, _)| *c != j).map(|(_, e)| e.clone()).collect()).collect()
+    rest.map(|(_, row)| row.iter().enumerate().filter(|(c, _)| *c != j).map(|(_, e)| e.clone()).collect())
+        .collect()
 }
 
 /// number · s^power · ∏ factors.
@@ -137,10 +138,13 @@ pub(super) fn coefficients(
             }
             None => None,
         };
-        shown.push((power, match as_products {
-            Some(other) if other.cost() <= multiplied.cost() + 1 => other,
-            _ => multiplied,
-        }));
+        shown.push((
+            power,
+            match as_products {
+                Some(other) if other.cost() <= multiplied.cost() + 1 => other,
+                _ => multiplied,
+            },
+        ));
     }
     Ok(shown)
 }

@@ -46,11 +46,8 @@ fn cost(expression: &Expression) -> usize {
 
 /// Σ of signed parts, those without a minus first where `sorted`; 0 for none.
 pub(super) fn sum(parts: Vec<Signed>, positive_first: bool) -> Expression {
-    let (first, second): (Vec<_>, Vec<_>) = if positive_first {
-        parts.into_iter().partition(|part| !part.negative)
-    } else {
-        (parts, Vec::new())
-    };
+    let (first, second): (Vec<_>, Vec<_>) =
+        if positive_first { parts.into_iter().partition(|part| !part.negative) } else { (parts, Vec::new()) };
     let mut all = first.into_iter().chain(second);
     let Some(head) = all.next() else { return number(Rational::ZERO) };
     all.fold(head.into_expression(), |sum, part| {
@@ -90,7 +87,9 @@ impl Ring {
         // Letters as they come, then sums, short ones first.
         factors.sort_by(|(a, _), (b, _)| {
             let terms = |p: &Poly| if p.term_count() == 1 { 0 } else { p.term_count() };
-            terms(a).cmp(&terms(b)).then_with(|| b.leading().map(|(m, _)| m).cmp(&a.leading().map(|(m, _)| m)))
+            terms(a)
+                .cmp(&terms(b))
+                .then_with(|| b.leading().map(|(m, _)| m).cmp(&a.leading().map(|(m, _)| m)))
         });
         let (top, bottom) = split(&size);
         let mut written = Vec::new();
@@ -123,16 +122,21 @@ impl Ring {
         Ok(Signed { negative, size })
     }
 
-    fn letter_form(&self, letter: Letter, power: u32, budget: &mut Budget) -> Result<Vec<Expression>, Trouble> {
+    fn letter_form(
+        &self,
+        letter: Letter,
+        power: u32,
+        budget: &mut Budget,
+    ) -> Result<Vec<Expression>, Trouble> {
         let failed = std::cell::Cell::new(None);
         let inner = std::cell::RefCell::new(budget);
-        let shown = self.shown(letter, power, &|fraction| {
-            match self.fraction_form(fraction, &mut inner.borrow_mut()) {
-                Ok(form) => form.into_expression(),
-                Err(trouble) => {
-                    failed.set(Some(trouble));
-                    number(Rational::ZERO)
-                }
+        let shown = self.shown(letter, power, &|fraction| match self
+            .fraction_form(fraction, &mut inner.borrow_mut())
+        {
+            Ok(form) => form.into_expression(),
+            Err(trouble) => {
+                failed.set(Some(trouble));
+                number(Rational::ZERO)
             }
         });
         match failed.into_inner() {
@@ -198,7 +202,10 @@ impl Ring {
             }
             let Some((_, group)) = best else { break };
             rest = rest.minus(&group, budget)?;
-            parts.push((group.terms().map(|(m, _)| m.degree()).min().unwrap_or(0), self.form(&group, budget)?));
+            parts.push((
+                group.terms().map(|(m, _)| m.degree()).min().unwrap_or(0),
+                self.form(&group, budget)?,
+            ));
         }
         for (monomial, coefficient) in rest.terms() {
             let term = Poly::term(coefficient.clone(), monomial.clone());

@@ -164,8 +164,10 @@ impl LetterFunction {
         let polynomial = |poly: &MultivariatePolynomial| {
             let mut coefficients = Vec::new();
             for part in poly.coefficients_of(ring::S).iter().rev() {
-                let known = part.letters().iter().all(|l| self.ring.generators[usize::from(*l)].exact.is_some());
-                let value = |l: u16| self.ring.generators[usize::from(l)].exact.clone().unwrap_or(Rational::ZERO);
+                let known =
+                    part.letters().iter().all(|l| self.ring.generators[usize::from(*l)].exact.is_some());
+                let value =
+                    |l: u16| self.ring.generators[usize::from(l)].exact.clone().unwrap_or(Rational::ZERO);
                 coefficients.push(known.then(|| part.eval(&value, &Rational::clone))?);
             }
             Some(Polynomial::new(coefficients))
@@ -181,7 +183,10 @@ impl LetterFunction {
         let horner = |p: &Polynomial, s: f64| p.coefficients().iter().fold(0.0, |sum, c| sum * s + to_f64(c));
         let mut worst: f64 = 0.0;
         for s in [0.37, 1.9, 7.3, 31.0] {
-            let (a, b) = (value(&self.num, s) * horner(&numeric.den, s), value(&self.den, s) * horner(&numeric.num, s));
+            let (a, b) = (
+                value(&self.num, s) * horner(&numeric.den, s),
+                value(&self.den, s) * horner(&numeric.num, s),
+            );
             let size = a.abs().max(b.abs());
             let off = if size == 0.0 { 0.0 } else { (a - b).abs() / size };
             worst = if off.is_finite() { worst.max(off) } else { f64::INFINITY };

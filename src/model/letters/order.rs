@@ -16,7 +16,8 @@ pub(super) fn as_written(model: &Model, letters: Vec<String>) -> Vec<String> {
         }
     }
     // What is written both ways says nothing.
-    let opposed: Vec<(usize, usize)> = before.iter().filter(|(a, b)| before.contains(&(*b, *a))).copied().collect();
+    let opposed: Vec<(usize, usize)> =
+        before.iter().filter(|(a, b)| before.contains(&(*b, *a))).copied().collect();
     before.retain(|pair| !opposed.contains(pair));
     let mut open: Vec<usize> = (0..letters.len()).collect();
     let mut order = Vec::with_capacity(letters.len());
@@ -46,7 +47,9 @@ fn factors(node: &Expression, names: &mut Vec<String>) {
             factors(a, names);
             factors(b, names);
         }
-        NodeKind::Power(a, _) | NodeKind::Call(_, a) | NodeKind::Negate(a) | NodeKind::Divide(a, _) => factors(a, names),
+        NodeKind::Power(a, _) | NodeKind::Call(_, a) | NodeKind::Negate(a) | NodeKind::Divide(a, _) => {
+            factors(a, names)
+        }
         NodeKind::Symbol { name, .. } => names.push(name.clone()),
         _ => {}
     }

@@ -15,11 +15,20 @@ pub(super) enum Atom {
     S,
     Pi,
     /// A parameter or a value at rest; the letter is its root of that order, so that √h and h are powers of one letter.
-    Name { name: String, order: u32 },
+    Name {
+        name: String,
+        order: u32,
+    },
     /// The root of that order of a polynomial that is no single letter: its powers are reduced.
-    Root { of: Poly, order: u32 },
+    Root {
+        of: Poly,
+        order: u32,
+    },
     /// A function that is not algebraic, of this argument.
-    Call { function: Function, argument: Fraction },
+    Call {
+        function: Function,
+        argument: Fraction,
+    },
 }
 
 /// A letter, what it stands for, and its value by the lab's numbers.
@@ -136,7 +145,12 @@ impl Ring {
     }
 
     /// Without what both hold, and that.
-    pub fn shortened(&self, num: Poly, den: Poly, budget: &mut Budget) -> Result<(Poly, Poly, Poly), Trouble> {
+    pub fn shortened(
+        &self,
+        num: Poly,
+        den: Poly,
+        budget: &mut Budget,
+    ) -> Result<(Poly, Poly, Poly), Trouble> {
         let mut shared = num.gcd(&den, budget)?;
         let (mut num, mut den) = match shared.as_constant() {
             Some(_) => (num, den),
@@ -149,7 +163,9 @@ impl Ring {
         let mut letters = [num.letters(), den.letters()].concat();
         letters.dedup();
         for letter in letters {
-            while let (Some(a), Some(b)) = (self.over_root(&num, letter, budget)?, self.over_root(&den, letter, budget)?) {
+            while let (Some(a), Some(b)) =
+                (self.over_root(&num, letter, budget)?, self.over_root(&den, letter, budget)?)
+            {
                 (num, den) = (a, b);
                 shared = shared.times(&Poly::letter(letter), budget)?;
             }
@@ -228,7 +244,10 @@ impl Ring {
         let degree = u8::try_from(order).map_err(|_| Trouble::Undefined)?;
         let (outside, inside) = match exact_root(&size, degree) {
             Some(root) => (outside.scaled(&root), if negative { left.negated() } else { left }),
-            None => (outside, left.scaled(&number)),
+            None => {
+                let (out, inside) = if order == 2 { squares_out(&size) } else { (Rational::ONE, size) };
+                (outside.scaled(&out), left.scaled(&if negative { -inside } else { inside }))
+            }
         };
         let outside = self.fraction(outside, a.den.clone(), budget)?;
         if inside == Poly::one() {
@@ -240,7 +259,8 @@ impl Ring {
 
     /// factor^(power/order) as what comes out of the root, and the (base, power) that stays inside.
     fn taken_out(&self, factor: &Poly, power: u32, order: u32) -> (Poly, (Poly, u32)) {
-        let only = factor.leading().filter(|_| factor.term_count() == 1).map(|(monomial, _)| monomial.powers());
+        let only =
+            factor.leading().filter(|_| factor.term_count() == 1).map(|(monomial, _)| monomial.powers());
         if let Some([(letter, 1)]) = only
             && let Some(Atom::Name { order: known, .. }) = self.atom(*letter)
             && known % order == 0
@@ -297,7 +317,10 @@ impl Ring {
 
     /// The letter of a name, when there is one.
     pub fn named(&self, name: &str) -> Option<Fraction> {
-        let place = self.generators.iter().position(|g| matches!(&g.atom, Atom::Name { name: n, .. } if n == name))?;
+        let place = self
+            .generators
+            .iter()
+            .position(|g| matches!(&g.atom, Atom::Name { name: n, .. } if n == name))?;
         let Atom::Name { order, .. } = &self.generators[place].atom else { return None };
         Some(Fraction::polynomial(Poly::term(Rational::ONE, Monomial::letter(place as Letter, *order))))
     }
@@ -316,7 +339,12 @@ impl Ring {
     }
 
     /// The letter to that power, as one writes it.
-    pub fn shown(&self, letter: Letter, power: u32, form: &dyn Fn(&Fraction) -> Expression) -> Vec<Expression> {
+    pub fn shown(
+        &self,
+        letter: Letter,
+        power: u32,
+        form: &dyn Fn(&Fraction) -> Expression,
+    ) -> Vec<Expression> {
         let raised = |base: Expression, power: u32| match power {
             0 => None,
             1 => Some(base),
@@ -342,6 +370,20 @@ impl Ring {
             }
         }
     }
+}
+
+/// √value as rational · √whole, squares of small numbers taken out: 3/4 is (1/2, 3).
+fn squares_out(value: &Rational) -> (Rational, Rational) {
+    let bottom = Rational::from(value.denominator().clone());
+    let (mut out, mut inside) = (Rational::ONE / &bottom, value * &bottom * &bottom);
+    for n in 2..=100u32 {
+        let square = Rational::from(n * n);
+        while (&inside / &square).is_int() {
+            inside /= &square;
+            out *= Rational::from(n);
+        }
+    }
+    (out, inside)
 }
 
 /// base^(power/order), as a square root where it is one.

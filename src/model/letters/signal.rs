@@ -44,7 +44,8 @@ impl Signal {
 /// x → X, theta → Theta, h1 → H1; a Greek letter whose capital is a Latin one stays small.
 pub(super) fn capital(name: &str) -> String {
     const SAME_AS_LATIN: [&str; 13] = [
-        "alpha", "beta", "epsilon", "zeta", "eta", "iota", "kappa", "mu", "nu", "rho", "tau", "upsilon", "chi",
+        "alpha", "beta", "epsilon", "zeta", "eta", "iota", "kappa", "mu", "nu", "rho", "tau", "upsilon",
+        "chi",
     ];
     let base: &str = name.split('_').next().unwrap_or(name).trim_end_matches(|c: char| c.is_ascii_digit());
     if SAME_AS_LATIN.contains(&base) {

@@ -115,7 +115,12 @@ fn is_sign_slope(node: &Expression) -> bool {
     matches!(&node.kind, NodeKind::Divide(a, _) if matches!(&a.kind, NodeKind::Number(zero) if zero.is_zero()))
 }
 
-fn power(ring: &mut Ring, base: &Fraction, exponent: &Fraction, budget: &mut Budget) -> Result<Fraction, Trouble> {
+fn power(
+    ring: &mut Ring,
+    base: &Fraction,
+    exponent: &Fraction,
+    budget: &mut Budget,
+) -> Result<Fraction, Trouble> {
     let Some(exponent) = exponent.as_constant() else {
         // aᵇ = exp(b ln a)
         let logarithm = call(ring, Function::Ln, base, budget)?;
@@ -144,7 +149,8 @@ fn call(ring: &mut Ring, function: Function, a: &Fraction, budget: &mut Budget) 
     match function {
         Function::Sqrt => ring.root(a, 2, budget),
         Function::Tan => {
-            let (sine, cosine) = (call(ring, Function::Sin, a, budget)?, call(ring, Function::Cos, a, budget)?);
+            let (sine, cosine) =
+                (call(ring, Function::Sin, a, budget)?, call(ring, Function::Cos, a, budget)?);
             ring.quotient(&sine, &cosine, budget)
         }
         Function::Sin | Function::Cos => circular(ring, function, a, budget),
@@ -164,7 +170,9 @@ fn call(ring: &mut Ring, function: Function, a: &Fraction, budget: &mut Budget) 
             let one = a.as_constant() == Some(Rational::ONE);
             match function {
                 Function::Exp | Function::Cosh if a.is_zero() => Ok(Fraction::constant(Rational::ONE)),
-                Function::Asin | Function::Atan | Function::Sinh | Function::Tanh if a.is_zero() => Ok(Fraction::zero()),
+                Function::Asin | Function::Atan | Function::Sinh | Function::Tanh if a.is_zero() => {
+                    Ok(Fraction::zero())
+                }
                 Function::Ln if one => Ok(Fraction::zero()),
                 _ => Ok(Fraction::polynomial(Poly::letter(ring.call(function, a)))),
             }
@@ -172,7 +180,12 @@ fn call(ring: &mut Ring, function: Function, a: &Fraction, budget: &mut Budget) 
     }
 }
 
-fn circular(ring: &mut Ring, function: Function, a: &Fraction, budget: &mut Budget) -> Result<Fraction, Trouble> {
+fn circular(
+    ring: &mut Ring,
+    function: Function,
+    a: &Fraction,
+    budget: &mut Budget,
+) -> Result<Fraction, Trouble> {
     if let Some(turns) = ring.multiple_of_pi(a)
         && let Some((negative, square)) = circular_at(function, &turns)
     {

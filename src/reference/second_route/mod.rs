@@ -3,6 +3,7 @@
 mod comparison;
 mod eigenvalues;
 mod features;
+mod letters;
 mod linear;
 mod simulations;
 mod small_signal;
@@ -48,6 +49,7 @@ pub fn second_route(lab: &LabDefinition, reference: &Reference) -> Vec<Agreement
             let model = &definition.model;
             agreements.push(comparison::equilibrium_route(&name, model, &parameters, at));
             agreements.extend(linear::linear_routes(&name, point));
+            agreements.extend(letters::letters_route(&name, point));
             agreements.extend(features::feature_routes(&name, point));
             agreements.extend(small_signal::small_signal_route(&name, model, &parameters, at, point));
             agreements.extend(comparison::comparison_route(&name, model, &parameters, at, point));
