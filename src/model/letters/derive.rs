@@ -1,4 +1,4 @@
-use super::super::{Equilibrium, Exact, Model};
+use super::super::{Equilibrium, Exact, Model, ParameterValues};
 use super::determinant::{coefficients, determinant, products};
 use super::form::{Signed, power_of_s, product};
 use super::ring::{Atom, Fraction, Generator, Ring, S};
@@ -22,12 +22,14 @@ pub(super) fn derive(
     output: &str,
 ) -> Result<LetterDerivation, Trouble> {
     let budget = &mut Budget::new(STEPS);
+    let parameters = &model.derived.values(parameters).map_err(|_| Trouble::Undefined)?;
     let rest = Rest::new(model, parameters, at);
     let mut ring = rest.ring(model, parameters);
     let lookup = |name: &str, primes: u8, ring: &Ring| rest.fraction(name, primes, ring);
 
     let mut rest_equations = Vec::new();
-    for equation in &model.equations {
+    let motion = model.equations.len() - model.outputs.len().min(model.equations.len());
+    for equation in &model.equations[..motion] {
         let left = evaluate(&mut ring, &equation.left, &lookup, budget);
         let right = evaluate(&mut ring, &equation.right, &lookup, budget);
         let (left, right) = (left?, right?);
@@ -212,7 +214,7 @@ struct Rest {
 }
 
 impl Rest {
-    fn new(model: &Model, parameters: &BTreeMap<String, Rational>, at: &Equilibrium) -> Self {
+    fn new(model: &Model, parameters: &ParameterValues, at: &Equilibrium) -> Self {
         let names = model.coordinates.iter().map(|c| &c.name).chain(&model.inputs);
         let taken = |name: &str| {
             parameters.contains_key(name)
@@ -238,7 +240,7 @@ impl Rest {
         Self { letters, turns, parameters: parameters.keys().cloned().collect() }
     }
 
-    fn ring(&self, model: &Model, parameters: &BTreeMap<String, Rational>) -> Ring {
+    fn ring(&self, model: &Model, parameters: &ParameterValues) -> Ring {
         let mut ring = Ring::default();
         ring.add(Generator { atom: Atom::S, value: 0.0, exact: None });
         ring.pi();
@@ -250,7 +252,7 @@ impl Rest {
             let (letter, value) = match self.letters.get(&name) {
                 Some((letter, value)) => (letter.clone(), value.clone()),
                 None => match parameters.get(&name) {
-                    Some(value) => (name.clone(), Exact::rational(value.clone())),
+                    Some(value) => (name.clone(), value.clone()),
                     None => continue,
                 },
             };
@@ -286,7 +288,8 @@ impl Rest {
 
     fn shown(&self, model: &Model, ring: &Ring, budget: &mut Budget) -> Result<Vec<AtRest>, Trouble> {
         let mut all = Vec::new();
-        for name in model.coordinates.iter().map(|c| &c.name).chain(&model.inputs) {
+        let names = model.coordinates.iter().map(|c| &c.name).filter(|name| !model.is_output(name));
+        for name in names.chain(&model.inputs) {
             let Some(fraction) = self.fraction(name, 0, ring).filter(|f| !f.is_zero()) else { continue };
             let is = ring.fraction_form(&fraction, budget)?.into_expression();
             all.push(AtRest { name: name.clone(), is, value: ring.value_of(&fraction) });
