@@ -4,8 +4,8 @@ mod compare;
 mod equations;
 mod equilibrium;
 mod exact;
-mod linear_form;
 mod letters;
+mod linear_form;
 mod linearization;
 mod mistakes;
 mod motion;
@@ -19,10 +19,10 @@ pub use compare::{Comparison, ComparisonRun, ComparisonSample, compare};
 pub use equations::{Coordinate, Equation, Model, ModelError};
 pub use equilibrium::Equilibrium;
 pub use exact::Exact;
-pub use linear_form::{LinearForm, Root};
 pub use letters::{
     AtRest, LetterAgreement, LetterDerivation, LetterEquation, LetterTerm, LettersError, Signal,
 };
+pub use linear_form::{LinearForm, Root};
 pub use linearization::{Linearization, linearize};
 pub use mistakes::{Derivation, Estimates, Mistake, MistakeKind, Pair, Place, RealFunction, RealPolynomial};
 pub use parameters::{DerivedParameter, DerivedParameters, ParameterValues};

@@ -95,6 +95,13 @@ impl Ring {
         poly.eval(&of, &crate::algebra::to_f64)
     }
 
+    /// The same when it is rational and known exactly.
+    fn exact(&self, poly: &Poly) -> Option<Rational> {
+        let of = |letter: Letter| self.generators.get(usize::from(letter)).and_then(|g| g.exact.clone());
+        let known = poly.letters().into_iter().all(|letter| of(letter).is_some());
+        known.then(|| poly.eval(&|letter| of(letter).unwrap_or(Rational::ZERO), &Rational::clone))
+    }
+
     pub fn value_of(&self, fraction: &Fraction) -> f64 {
         self.value(&fraction.num) / self.value(&fraction.den)
     }
@@ -284,7 +291,8 @@ impl Ring {
             Some(letter) => letter as Letter,
             None => {
                 let value = self.value(&of).powf(1.0 / f64::from(order));
-                self.add(Generator { atom: Atom::Root { of, order }, value, exact: None })
+                let exact = self.exact(&of).and_then(|v| exact_root(&v, u8::try_from(order).ok()?));
+                self.add(Generator { atom: Atom::Root { of, order }, value, exact })
             }
         }
     }
