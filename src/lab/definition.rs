@@ -89,7 +89,7 @@ pub struct OperatingPointDefinition {
     pub at: Equilibrium,
     /// The same for any values of the parameters.
     pub rest: Rest,
-    /// The equilibrium as typed, (name, text): `("theta", "pi")`.
+    /// The equilibrium as typed, (name, text): `("theta", "pi")`; of a value that is solved for, what was found.
     pub at_text: Vec<(String, String)>,
     pub input: String,
     pub input_unit: String,

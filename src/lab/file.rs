@@ -236,7 +236,8 @@ pub(super) struct OutputFile {
 pub(super) struct OperatingPointFile {
     /// Title, one line. Default: the id in words.
     pub title: Option<String>,
-    /// Coordinates and inputs at rest: formulas of numbers, `pi` and parameters; what is left out is 0.
+    /// Coordinates and inputs at rest: formulas of numbers, `pi` and parameters; or `solve` or `solve near 0.3` for whatever balances
+    /// the equations, and nothing else does (nothing nearer). What is left out is 0.
     #[serde(default)]
     pub at: Entries<Text>,
     /// The input that is varied.

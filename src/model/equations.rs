@@ -64,6 +64,20 @@ pub enum ModelError {
     Parameter { name: String, error: Box<ModelError> },
     #[error("`{name}` at rest: {error}")]
     Rest { name: String, error: Box<ModelError> },
+    #[error("{} does not enter the equations at rest, so any value of it balances them", quoted(name))]
+    Free { name: String },
+    #[error("the equations at rest do not say what {} are one by one", and(names))]
+    Undetermined { names: Vec<String> },
+    #[error("no value of {} was found at which the equations balance", and(names))]
+    NotFound { names: Vec<String> },
+    /// Each as `x = 2`, several unknowns with commas between.
+    #[error("the equations balance at more than one place: {}", values.join("; "))]
+    Several { names: Vec<String>, values: Vec<String> },
+    #[error(
+        "near {value} the equations balance, but hardly change with {}, so no single value can be told",
+        and(names)
+    )]
+    Indistinct { names: Vec<String>, value: String },
     /// `primes` are those that the equations have.
     #[error("the output `{output}` is of `{symbol}`, but the equations go no further than `{highest}`")]
     OutputOrder { output: String, symbol: String, highest: String },
@@ -82,6 +96,20 @@ pub enum ModelError {
     NotLinear { equation: usize, symbol: String },
     #[error("the equations cannot be followed after an impulse of {push}: {source}")]
     Simulation { push: f64, source: OdeError },
+}
+
+fn quoted(name: &str) -> String {
+    format!("`{name}`")
+}
+
+/// `a`, `b` and `c`.
+fn and(names: &[String]) -> String {
+    let names: Vec<String> = names.iter().map(|name| quoted(name)).collect();
+    match names.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, before)) => format!("{} and {last}", before.join(", ")),
+        None => String::new(),
+    }
 }
 
 /// `a` needs `b` needs `a`.

@@ -1,5 +1,7 @@
 use super::ModelError;
-use crate::algebra::{Expression, Function, NodeKind, Rational, exact_root, from_f64, to_f64};
+use crate::algebra::{
+    Expression, Function, NodeKind, Rational, exact_root, from_f64, parse_decimal, significant, to_f64,
+};
 use dashu_int::ops::BitTest;
 use std::f64::consts::PI;
 
@@ -79,7 +81,7 @@ impl Exact {
         self.plus(other.negated())
     }
 
-    fn times(self, other: Self) -> Self {
+    pub(super) fn times(self, other: Self) -> Self {
         match (self.as_rational(), other.as_rational()) {
             (Some(factor), _) => other.scaled(factor),
             (_, Some(factor)) => self.scaled(factor),
@@ -87,7 +89,7 @@ impl Exact {
         }
     }
 
-    fn scaled(&self, factor: &Rational) -> Self {
+    pub(super) fn scaled(&self, factor: &Rational) -> Self {
         match self {
             _ if factor.is_zero() => Self::zero(),
             Self::Known { rational, pi } => Self::Known { rational: rational * factor, pi: pi * factor },
@@ -95,7 +97,7 @@ impl Exact {
         }
     }
 
-    fn over(self, other: Self) -> Result<Self, ModelError> {
+    pub(super) fn over(self, other: Self) -> Result<Self, ModelError> {
         if let Some(divisor) = other.as_rational() {
             if divisor.is_zero() {
                 return Err(undefined("division by zero"));
@@ -114,7 +116,7 @@ impl Exact {
         approximate(self.to_f64() / other.to_f64(), "division")
     }
 
-    fn raised_to(self, exponent: Self) -> Result<Self, ModelError> {
+    pub(super) fn raised_to(self, exponent: Self) -> Result<Self, ModelError> {
         if let (Some(base), Some(power)) = (self.as_rational(), exponent.as_rational()) {
             if base.is_zero() && *power < Rational::ZERO {
                 return Err(undefined("division by zero"));
@@ -173,7 +175,7 @@ pub(super) fn evaluate(
     }
 }
 
-fn call(function: Function, argument: Exact, purpose: Purpose) -> Result<Exact, ModelError> {
+pub(super) fn call(function: Function, argument: Exact, purpose: Purpose) -> Result<Exact, ModelError> {
     if function == Function::Sign && purpose == Purpose::Slope && argument.is_zero() {
         return Err(kink());
     }
@@ -301,6 +303,33 @@ fn is_kink(error: &ModelError) -> bool {
     matches!(error, ModelError::Undefined { function } if function == KINK)
 }
 
+/// As one types it: `0.25`, `7/6`, `5*pi/6`; rounded to six figures where it is no such number.
+impl std::fmt::Display for Exact {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let rounded = significant(self.to_f64(), 6);
+        let short = |k: &Rational| k.numerator().bit_len() <= 20 && k.denominator().bit_len() <= 20;
+        match self {
+            Self::Known { rational, pi } if pi.is_zero() && short(rational) => {
+                let decimal = parse_decimal(&rounded).ok();
+                if decimal.as_ref() == Some(rational) {
+                    f.write_str(&rounded)
+                } else {
+                    write!(f, "{rational}")
+                }
+            }
+            Self::Known { rational, pi } if rational.is_zero() && short(pi) => {
+                let top = match pi.numerator() {
+                    one if *one == dashu_int::IBig::ONE => "pi".to_owned(),
+                    one if *one == dashu_int::IBig::NEG_ONE => "-pi".to_owned(),
+                    n => format!("{n}*pi"),
+                };
+                if pi.is_int() { f.write_str(&top) } else { write!(f, "{top}/{}", pi.denominator()) }
+            }
+            _ => f.write_str(&rounded),
+        }
+    }
+}
+
 impl Exact {
     /// The rational that stands for it, and whether it is its exact value.
     pub(super) fn to_rational(&self) -> (Rational, bool) {
@@ -401,6 +430,23 @@ mod tests {
             assert!(matches!(value(text), Err(ModelError::Undefined { .. })), "{text}: {:?}", value(text));
         }
         assert_eq!(value("y''"), Err(ModelError::NoValue { name: "y''".to_owned() }));
+    }
+
+    #[test]
+    fn shown_as_one_types_it() {
+        for (text, shown) in [
+            ("1/4", "0.25"),
+            ("-7/6", "-7/6"),
+            ("0", "0"),
+            ("pi", "pi"),
+            ("-pi/2", "-pi/2"),
+            ("5*pi/6", "5*pi/6"),
+            ("sqrt(2)", "1.41421"),
+            ("1 + pi", "4.14159"),
+            ("1/3^40", "8.22526e-20"),
+        ] {
+            assert_eq!(value(text).unwrap().to_string(), shown, "{text}");
+        }
     }
 
     #[test]

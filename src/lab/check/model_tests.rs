@@ -72,6 +72,18 @@ fn what_follows_is_worked_out_for_every_choice() {
 }
 
 #[test]
+fn what_is_solved_for_is_shown_as_found() {
+    let text = TANKS.replacen("h1: 4, h2: 1, q: k*sqrt(4)}", "h1: 9, h2: solve, q: solve}", 1);
+    let lab = parse(&text).unwrap_or_else(|errors| panic!("{errors}"));
+    let point = &lab.models[0].operating_points[0];
+    let shown: Vec<String> = point.at_text.iter().map(|(name, text)| format!("{name} = {text}")).collect();
+    assert_eq!(shown, ["h1 = 9", "h2 = 2.25", "q = 0.6"]);
+    // With the other k the same level needs another inflow.
+    let reference = Reference::compute(&lab).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(reference.models[0].operating_points[0].accepted.len(), 2);
+}
+
+#[test]
 fn what_is_wrong_with_a_model_is_said_where_it_stands() {
     #[track_caller]
     fn check(old: &str, new: &str, place: &str, message: &str, help: &str) {
@@ -191,6 +203,35 @@ fn what_is_wrong_with_a_model_is_said_where_it_stands() {
         "(h1)",
         "`h1` is not a name we know",
         "the names are `r`, `A`, `k`",
+    );
+    // Values that are solved for.
+    check(
+        "h2: 1, q: k*sqrt(4)}",
+        "h2: solve, q: -1}",
+        "4",
+        "equation 1 does not balance at this point: 0 on the left, -1.4 on the right",
+        "give the values of coordinates and inputs at which nothing moves",
+    );
+    check(
+        "h1: 4, h2: 1, q: k*sqrt(4)}",
+        "h1: solve, h2: 1, q: -1}",
+        "solve",
+        "no value of `h1` was found at which the equations balance",
+        "check the equations and what is given, or say where to look: `solve near 0.3`",
+    );
+    check(
+        "q: k*sqrt(4)}",
+        "q: solve near x}",
+        "x",
+        "`x` is not a name we know",
+        "the names are `r`, `A`, `k`",
+    );
+    check(
+        "q: k*sqrt(4)}",
+        "q: solve 3}",
+        "3",
+        "`3` cannot stand after `solve`",
+        "write `solve`, or `solve near 0.3`",
     );
     check(
         "about: tanks",

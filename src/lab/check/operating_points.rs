@@ -38,14 +38,23 @@ impl Checker<'_> {
         if self.findings.len() > before {
             return None;
         }
+        let solved: Vec<String> = entries
+            .iter()
+            .filter(|(_, value)| matches!(value, RestValue::Solve { .. }))
+            .map(|(name, _)| name.clone())
+            .collect();
         let rest = Rest::new(entries);
         let at = self.balance(id, file, model_is, parameters, &rest)?;
+        let at_text = file.at.0.iter().map(|(name, text)| {
+            let found = at.values.get(&name.value).filter(|_| solved.contains(&name.value));
+            (name.value.clone(), found.map_or_else(|| text.value.clone(), ToString::to_string))
+        });
         Some(OperatingPointDefinition {
+            at_text: at_text.collect(),
             id: id.value.clone(),
             title: defaults::title(file.title.as_ref(), &id.value),
             at,
             rest,
-            at_text: file.at.0.iter().map(|(name, text)| (name.value.clone(), text.value.clone())).collect(),
             input: file.input.value.clone(),
             input_unit: model.inputs.value.0[input?].1.unit.clone(),
             output: file.output.value.clone(),
@@ -66,7 +75,13 @@ impl Checker<'_> {
 
     /// A coordinate or an input at rest.
     fn rest_value(&mut self, text: &Text, parameters: &[&str]) -> Option<RestValue> {
-        self.formula("lab.equilibrium", text, parameters).map(RestValue::Formula)
+        match RestValue::parse(&text.value, parameters) {
+            Ok(value) => Some(value),
+            Err(error) => {
+                self.expression_error("lab.equilibrium", text, error);
+                None
+            }
+        }
     }
 
     fn comparison(&mut self, comparison: &ComparisonFile) -> Option<Comparison> {
@@ -124,6 +139,28 @@ impl Checker<'_> {
                 error.to_string(),
                 Some("give the values of coordinates and inputs at which nothing moves".to_owned()),
             ),
+            ModelError::Free { name } => {
+                (typed(name).unwrap_or(first), error.to_string(), Some("give it a value".to_owned()))
+            }
+            ModelError::Undetermined { names }
+            | ModelError::NotFound { names }
+            | ModelError::Several { names, .. }
+            | ModelError::Indistinct { names, .. } => {
+                let help = match &error {
+                    ModelError::Undetermined { .. } => "give one of them a value".to_owned(),
+                    ModelError::NotFound { .. } => {
+                        "check the equations and what is given, or say where to look: `solve near 0.3`"
+                            .to_owned()
+                    }
+                    ModelError::Several { values, .. } => {
+                        let value =
+                            values.first().and_then(|first| first.rsplit(" = ").next()).unwrap_or("0.3");
+                        format!("say which one is meant, such as `solve near {value}`")
+                    }
+                    _ => "give a value, or choose another operating point".to_owned(),
+                };
+                (names.iter().find_map(typed).unwrap_or(first), error.to_string(), Some(help))
+            }
             ModelError::Rest { name, error } => (
                 typed(name).unwrap_or(first),
                 format!("`{name}` has no value at rest: {}", reason(error)),
