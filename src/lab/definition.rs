@@ -95,7 +95,7 @@ pub struct OperatingPointDefinition {
     pub input_unit: String,
     pub output: String,
     pub output_unit: String,
-    /// How the linear model is held against the nonlinear equations; `None` where it is not.
+    /// How the linear model is held against the nonlinear equations; `None` where the lab does not say.
     pub comparison: Option<Comparison>,
     pub span: Span,
 }

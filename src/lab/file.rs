@@ -244,7 +244,8 @@ pub(super) struct OperatingPointFile {
     pub input: Text,
     /// The coordinate or output that is watched.
     pub output: Text,
-    /// How the linear model is held against the nonlinear equations. Default: it is not.
+    /// How the linear model is held against the nonlinear equations. Default: over the time an impulse response is shown, with the
+    /// impulse at which they part by a tenth of the linear peak and a fifth of it.
     pub comparison: Option<ComparisonFile>,
 }
 

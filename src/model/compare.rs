@@ -22,6 +22,8 @@ pub type ComparisonSample = (f64, f64, f64);
 /// Output deviation after an impulse at the input, linear beside nonlinear.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComparisonRun {
+    /// How they were compared: as the lab says, or as [`compare_as_usual`] chose.
+    pub asked: Comparison,
     /// (push, samples of (t, linear, nonlinear)), output deviation from equilibrium in its unit; some 600 samples at most.
     pub runs: Vec<(f64, Vec<ComparisonSample>)>,
     /// The smallest impulse (input unit · s) whose departure reaches `Comparison::departure`, to three figures or better;
@@ -49,24 +51,77 @@ pub fn compare(
     comparison: &Comparison,
 ) -> Result<ComparisonRun, ModelError> {
     let linearization = linearize(model, parameters, at, input, output)?;
-    let experiment = Experiment {
-        motion: Motion::new(model, parameters, at, output)?,
-        start: column(&linearization.state_space.as_ref().ok_or(ModelError::Singular)?.b),
-        linear: impulse_response(&linearization, comparison.horizon_s)?,
-        horizon_s: comparison.horizon_s,
-    };
-    let mut runs = Vec::with_capacity(comparison.pushes.len());
-    for &push in &comparison.pushes {
-        let nonlinear = experiment
-            .nonlinear(push, DRAWN_TOLERANCE)
-            .map_err(|source| ModelError::Simulation { push, source })?;
-        runs.push((push, experiment.samples(push, &nonlinear)));
-    }
-    let parting_push = experiment.parting_push(comparison);
-    let parting_amplitude = parting_push.map(|push| push * experiment.linear_peak());
-    Ok(ComparisonRun { runs, parting_push, parting_amplitude })
+    let experiment = Experiment::new(model, parameters, at, output, &linearization, comparison.horizon_s)?;
+    let sizes = comparison.pushes.iter().map(|push| push.abs()).filter(|push| *push > 0.0);
+    let smallest = sizes.fold(f64::INFINITY, f64::min);
+    let runs = experiment.runs(&comparison.pushes)?;
+    let parting_push = experiment.parting_push(smallest, comparison.departure);
+    Ok(experiment.told(comparison.clone(), runs, parting_push))
 }
 
+/// [`compare`] over the time an impulse response is shown, where a lab does not say how.
+///
+/// They are said to part at a tenth of the linear peak, and two impulses are drawn, each rounded down to one figure: the one
+/// at which they part, and a fifth of it. It is looked for from the impulse after which the linear output reaches 1.
+/// `None` where there is nothing to see or to follow: the equations are linear, have no states, or answer an impulse with one of
+/// their own; no such impulse is within a million times of that; or they cannot be followed after it.
+pub fn compare_as_usual(
+    model: &Model,
+    parameters: &BTreeMap<String, Rational>,
+    at: &Equilibrium,
+    output: &str,
+    linearization: &Linearization,
+    horizon_s: f64,
+) -> Option<ComparisonRun> {
+    let through = linearization.state_space.as_ref()?.d.rows.iter().flatten().any(|d| !d.is_zero());
+    if linearization.states.is_empty() || through || is_linear(model, output) {
+        return None;
+    }
+    let experiment = Experiment::new(model, parameters, at, output, linearization, horizon_s).ok()?;
+    let peak = experiment.linear_peak();
+    if !(peak > 0.0 && peak.is_finite()) {
+        return None;
+    }
+    let parting_push = experiment.parting_push(1.0 / peak, USUAL_DEPARTURE)?;
+    // Where the equations break off before they part, there is no such push.
+    if (experiment.departure(parting_push) / USUAL_DEPARTURE - 1.0).abs() > 0.01 {
+        return None;
+    }
+    let pushes: Vec<f64> = [parting_push / 5.0, parting_push].map(one_figure_down).into();
+    let runs = experiment.runs(&pushes).ok()?;
+    let asked = Comparison { horizon_s, departure: USUAL_DEPARTURE, pushes };
+    Some(experiment.told(asked, runs, Some(parting_push)))
+}
+
+/// Whether no slope of an equation depends on where it is taken; the formulas of other outputs do not count.
+fn is_linear(model: &Model, output: &str) -> bool {
+    let moving = |name: &str| {
+        model.coordinates.iter().any(|c| c.name == name) || model.inputs.iter().any(|i| i == name)
+    };
+    let counts = |index: &usize| model.output_of(*index).is_none_or(|own| own == output);
+    (0..model.equations.len()).filter(counts).all(|index| {
+        let residual = model.residual(index);
+        let mut symbols: Vec<(String, u8)> =
+            residual.symbols().into_iter().map(|symbol| (symbol.name, symbol.primes)).collect();
+        symbols.sort();
+        symbols.dedup();
+        symbols.iter().filter(|(name, _)| moving(name)).all(|(name, primes)| {
+            let slope = residual.differentiate(name, *primes);
+            !slope.symbols().iter().any(|symbol| moving(&symbol.name))
+        })
+    })
+}
+
+/// 0.0375 → 0.03.
+fn one_figure_down(value: f64) -> f64 {
+    let text = format!("{value:e}");
+    let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let first: String = digits.chars().take(1).collect();
+    format!("{first}e{exponent}").parse().unwrap_or(value)
+}
+
+/// Of the linear peak, where a lab does not say.
+const USUAL_DEPARTURE: f64 = 0.1;
 /// Instants at which the curves are looked at, after the first.
 const INSTANTS: usize = 2_000;
 /// Of the integrator, for curves that are drawn.
@@ -89,6 +144,43 @@ struct Experiment {
 }
 
 impl Experiment {
+    fn new(
+        model: &Model,
+        parameters: &BTreeMap<String, Rational>,
+        at: &Equilibrium,
+        output: &str,
+        linearization: &Linearization,
+        horizon_s: f64,
+    ) -> Result<Self, ModelError> {
+        Ok(Self {
+            motion: Motion::new(model, parameters, at, output)?,
+            start: column(&linearization.state_space.as_ref().ok_or(ModelError::Singular)?.b),
+            linear: impulse_response(linearization, horizon_s)?,
+            horizon_s,
+        })
+    }
+
+    /// What is drawn of each push.
+    fn runs(&self, pushes: &[f64]) -> Result<Vec<(f64, Vec<ComparisonSample>)>, ModelError> {
+        let run = |push: &f64| {
+            let nonlinear = self
+                .nonlinear(*push, DRAWN_TOLERANCE)
+                .map_err(|source| ModelError::Simulation { push: *push, source })?;
+            Ok((*push, self.samples(*push, &nonlinear)))
+        };
+        pushes.iter().map(run).collect()
+    }
+
+    fn told(
+        &self,
+        asked: Comparison,
+        runs: Vec<(f64, Vec<ComparisonSample>)>,
+        parting_push: Option<f64>,
+    ) -> ComparisonRun {
+        let parting_amplitude = parting_push.map(|push| push * self.linear_peak());
+        ComparisonRun { asked, runs, parting_push, parting_amplitude }
+    }
+
     /// The output's deviation after an impulse of `push`, at each instant.
     fn nonlinear(&self, push: f64, tolerance: f64) -> Result<Vec<f64>, OdeError> {
         let start: Vec<f64> = self.start.iter().map(|x| x * push).collect();
@@ -117,15 +209,10 @@ impl Experiment {
         gap.fold(0.0, f64::max) / (push * self.linear_peak())
     }
 
-    fn parting_push(&self, comparison: &Comparison) -> Option<f64> {
-        let sizes = comparison.pushes.iter().map(|push| push.abs()).filter(|push| *push > 0.0);
-        let smallest = sizes.fold(f64::INFINITY, f64::min);
-        let wanted = comparison.departure;
-        if !smallest.is_finite()
-            || self.linear_peak().is_nan()
-            || self.linear_peak() <= 0.0
-            || wanted.is_nan()
-        {
+    /// Looked for from `smallest`.
+    fn parting_push(&self, smallest: f64, wanted: f64) -> Option<f64> {
+        let peak = self.linear_peak();
+        if !smallest.is_finite() || peak.is_nan() || peak <= 0.0 || wanted.is_nan() {
             return None;
         }
         // ln(departure / wanted): nearly a straight line over ln(push), for the departure grows as a power of it.
@@ -269,7 +356,7 @@ mod tests {
     };
 
     impl Plant {
-        fn compare(&self, comparison: &Comparison) -> Result<ComparisonRun, ModelError> {
+        fn at(&self) -> Result<(Model, BTreeMap<String, Rational>, Equilibrium), ModelError> {
             let coordinate =
                 |n: &&str| Coordinate { name: (*n).into(), unit: String::new(), description: String::new() };
             let model = Model::new(
@@ -282,6 +369,11 @@ mod tests {
                 self.parameters.iter().map(|(n, v)| ((*n).to_owned(), parse_decimal(v).unwrap())).collect();
             let pairs: Vec<_> = self.at.iter().map(|(n, t)| ((*n).to_owned(), (*t).to_owned())).collect();
             let at = Equilibrium::parse(&model, &parameters, &pairs)?;
+            Ok((model, parameters, at))
+        }
+
+        fn compare(&self, comparison: &Comparison) -> Result<ComparisonRun, ModelError> {
+            let (model, parameters, at) = self.at()?;
             compare(&model, &parameters, &at, self.input, self.output, comparison)
         }
 
@@ -471,5 +563,45 @@ mod tests {
         // θ'' = θ'² + u explodes a third of a second after a push of 3.
         let error = of(&["theta'' + 0*g = theta'^2 + u"]).unwrap_err();
         assert!(matches!(error, ModelError::Simulation { push: 3.0, .. }), "{error}");
+    }
+
+    /// What is chosen where a lab does not say.
+    #[test]
+    fn as_usual() {
+        #[track_caller]
+        fn check(plant: &Plant, horizon_s: f64, pushes: Option<[f64; 2]>) {
+            let (model, parameters, at) = plant.at().unwrap();
+            let linearization = linearize(&model, &parameters, &at, plant.input, plant.output).unwrap();
+            let run = compare_as_usual(&model, &parameters, &at, plant.output, &linearization, horizon_s);
+            let found = run.as_ref().map(|run| run.asked.pushes.clone());
+            assert_eq!(found, pushes.map(Vec::from), "{:?}", plant.equations);
+            if let Some(run) = run {
+                // The same as when it is asked for.
+                let again = plant.compare(&run.asked).unwrap();
+                assert_eq!(run.runs, again.runs);
+                let (one, other) = (run.parting_push.unwrap(), again.parting_push.unwrap());
+                assert!((one / other - 1.0).abs() < 1e-4, "{one}, {other}");
+            }
+        }
+        let linear = Plant { equations: &["theta'' + g*theta = u"], ..PENDULUM };
+        check(&linear, 5.0, None);
+        // After a push of √9.81 θ the swings lag by ωt θ²/16 radians: by a tenth in 5 s where θ is 0.32, the push 1.
+        check(&PENDULUM, 5.0, Some([0.1, 0.9]));
+        let through = Plant {
+            coordinates: &["theta", "y"],
+            output: "y",
+            equations: &["theta'' + g*sin(theta) = u", "y = theta + u"],
+            ..PENDULUM
+        };
+        check(&through, 5.0, None);
+        let still = Plant { equations: &["g*theta^3 + theta = u"], ..PENDULUM };
+        check(&still, 5.0, None);
+    }
+
+    #[test]
+    fn pushes_are_round() {
+        for (value, round) in [(0.0375, 0.03), (9.99, 9.0), (1.0, 1.0), (2e-7, 2e-7), (12345.0, 10000.0)] {
+            assert_eq!(one_figure_down(value), round);
+        }
     }
 }

@@ -15,7 +15,7 @@ mod program;
 mod rest;
 mod small_signal;
 
-pub use compare::{Comparison, ComparisonRun, ComparisonSample, compare};
+pub use compare::{Comparison, ComparisonRun, ComparisonSample, compare, compare_as_usual};
 pub use equations::{Coordinate, Equation, Model, ModelError};
 pub use equilibrium::Equilibrium;
 pub use exact::Exact;

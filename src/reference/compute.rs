@@ -2,7 +2,7 @@ use super::*;
 use crate::algebra::Rational;
 use crate::lab::{LabDefinition, ModelDefinition, OperatingPointDefinition, SimulationDefinition};
 use crate::lti::{InputKind, ResponseError, RootError, roots, stability};
-use crate::model::{LetterDerivation, ModelError, compare, linearize};
+use crate::model::{LetterDerivation, ModelError, compare, compare_as_usual, linearize};
 use crate::nonlinear::{ChainError, Run, simulate, without_nonlinearities};
 use std::collections::BTreeMap;
 
@@ -93,7 +93,22 @@ fn operating_point_reference(
         compare(&definition.model, &choices[0].values, &point.at, &point.input, &point.output, comparison)
             .map_err(|error| model_error(definition, point, error))
     };
-    let comparison = point.comparison.as_ref().map(compared).transpose()?;
+    let as_usual = || {
+        let main = accepted.first()?;
+        let (linearization, horizon_s) = (&main.linearization, main.impulse.as_ref()?.horizon_s);
+        compare_as_usual(
+            &definition.model,
+            &choices[0].values,
+            &point.at,
+            &point.output,
+            linearization,
+            horizon_s,
+        )
+    };
+    let comparison = match &point.comparison {
+        Some(comparison) => Some(compared(comparison)?),
+        None => as_usual(),
+    };
     Ok(OperatingPointReference {
         id: point.id.clone(),
         title: point.title.clone(),

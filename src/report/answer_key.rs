@@ -264,7 +264,7 @@ fn point(
                 draw(&comparison_figure(point, *push, samples), &id(&format!("push{i}"))).ok()
             })
             .collect(),
-        trust: trust(&kit.lab, &kit.reference, system).unwrap_or_default(),
+        trust: trust(&kit.reference, system).unwrap_or_default(),
     }
 }
 

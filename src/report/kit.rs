@@ -103,7 +103,7 @@ impl QuestionKit {
             .map_err(|source| ReportError::Figure { question: question.id.clone(), source })?;
         let remark = pictures::systems(question)
             .iter()
-            .filter_map(|system| trust(lab, reference, system))
+            .filter_map(|system| trust(reference, system))
             .collect::<Vec<_>>()
             .join(" ");
         Ok(Self {
@@ -117,9 +117,8 @@ impl QuestionKit {
 }
 
 /// How far the linear model of `system` may be trusted, in words.
-pub(super) fn trust(lab: &LabDefinition, reference: &Reference, system: &SystemRef) -> Option<String> {
+pub(super) fn trust(reference: &Reference, system: &SystemRef) -> Option<String> {
     let point = answers::find(reference, system)?;
-    let model = lab.models.iter().find(|m| m.id == system.model)?;
-    let definition = model.operating_points.iter().find(|p| p.id == system.operating_point)?;
-    Some(parting_words(point, definition.comparison.as_ref()?, point.comparison.as_ref()?))
+    let run = point.comparison.as_ref()?;
+    Some(parting_words(point, &run.asked, run))
 }

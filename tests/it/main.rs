@@ -9,6 +9,7 @@ mod conflicts;
 mod ctms;
 mod hard_polynomials;
 mod hard_table;
+mod held_ball;
 mod laws;
 mod ledger;
 mod marking_examples;

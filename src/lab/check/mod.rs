@@ -1,5 +1,6 @@
 //! From the file as typed to a [`LabDefinition`]: every error found is reported, with its place.
 
+mod amounts;
 mod cover;
 mod criteria;
 mod expectations;
@@ -54,7 +55,13 @@ fn definition(
     text: SourceText,
     values: &BTreeMap<String, String>,
 ) -> Result<LabDefinition, LabErrors> {
-    let mut checker = Checker { source: &text, values, findings: Vec::new() };
+    let mut checker = Checker {
+        source: &text,
+        values,
+        parameter_names: file.parameters.0.iter().map(|(name, _)| name.value.clone()).collect(),
+        parameter_values: None,
+        findings: Vec::new(),
+    };
     let lab = checker.lab(file, tree);
     let mut findings = checker.findings;
     match lab {
@@ -73,6 +80,9 @@ struct Checker<'a> {
     source: &'a SourceText,
     /// What some parameters are worth in place of their own value.
     values: &'a BTreeMap<String, String>,
+    parameter_names: Vec<String>,
+    /// As soon as they are known.
+    parameter_values: Option<crate::model::ParameterValues>,
     findings: Vec<Finding>,
 }
 

@@ -84,6 +84,39 @@ fn what_is_solved_for_is_shown_as_found() {
 }
 
 #[test]
+fn blocks_take_formulas_of_the_parameters() {
+    let simulation = "simulations:
+  valve:
+    title: Valve
+    source: {sine: {amplitude: 2*k, frequency_rad_s: pi/2}}
+    chain: [{saturation: {limit: k/2}}, {transfer_function: {num: [1/A], den: [r, 1]}}]
+    duration_s: 10*r
+    input: {name: inflow}
+    output: {name: level}
+    shown_in: stability
+total: 1
+";
+    let text = TANKS.replacen("total: 1\n", simulation, 1);
+    let lab = parse(&text).unwrap_or_else(|errors| panic!("{errors}"));
+    let shown = format!("{:?}", lab.simulations[0].chain);
+    for part in ["amplitude: 0.4", "frequency_rad_s: 1.57079632679", "limit: 0.1", "[2.0]", "[0.5, 1.0]"] {
+        assert!(shown.contains(part), "`{part}` is not in {shown}");
+    }
+    assert_eq!(lab.simulations[0].duration_s, 5.0);
+    let wrong = |old: &str, new: &str| {
+        let errors =
+            parse(&text.replacen(old, new, 1)).err().map(|errors| errors.findings).unwrap_or_default();
+        errors.into_iter().map(|finding| finding.message).collect::<Vec<_>>()
+    };
+    assert_eq!(wrong("limit: k/2", "limit: K/2"), ["`K` is not a name we know"]);
+    assert_eq!(
+        wrong("limit: k/2", "limit: r - 0.5"),
+        ["the limit of a saturation must be above 0, not r - 0.5"]
+    );
+    assert_eq!(wrong("limit: k/2", "limit: 1/(r - 0.5)"), ["`1/(r - 0.5)` has no value: it divides by zero"]);
+}
+
+#[test]
 fn what_is_wrong_with_a_model_is_said_where_it_stands() {
     #[track_caller]
     fn check(old: &str, new: &str, place: &str, message: &str, help: &str) {

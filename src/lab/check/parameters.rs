@@ -85,6 +85,7 @@ impl Checker<'_> {
             })
         });
         let list = list.collect::<Vec<_>>().into_iter().collect::<Option<_>>()?;
+        self.parameter_values = Some(values);
         Some(Parameters { list, derived })
     }
 

@@ -71,10 +71,6 @@ impl Checker<'_> {
         self.number(text).map(|value| to_f64(&value))
     }
 
-    pub(super) fn float_or(&mut self, text: Option<&Text>, default: f64) -> Option<f64> {
-        text.map_or(Some(default), |text| self.float(text))
-    }
-
     /// A number above zero; `what` names it.
     pub(super) fn positive(&mut self, text: &Text, what: &str) -> Option<f64> {
         let value = self.float(text)?;

@@ -52,7 +52,7 @@ impl Checker<'_> {
     ) -> Option<SimulationDefinition> {
         let source = self.source(&file.source.value);
         let blocks: Vec<_> = file.chain.value.iter().map(|block| self.block(block)).collect();
-        let duration_s = self.positive(&file.duration_s, "a duration");
+        let duration_s = self.positive_amount(&file.duration_s, "a duration");
         self.one_of(&file.shown_in, "question", &names.questions);
         let blocks = blocks.into_iter().collect::<Option<Vec<_>>>()?;
         let nonlinearity = blocks.iter().find_map(|block| match block {
@@ -81,10 +81,10 @@ impl Checker<'_> {
     fn source(&mut self, file: &SourceFile) -> Option<Signal> {
         match file {
             SourceFile::Sine { amplitude, frequency_rad_s, phase_rad, bias } => {
-                let amplitude = self.float(amplitude);
-                let frequency = self.positive(frequency_rad_s, "a frequency");
-                let phase = self.float_or(phase_rad.as_ref(), 0.0);
-                let bias = self.float_or(bias.as_ref(), 0.0);
+                let amplitude = self.amount(amplitude);
+                let frequency = self.positive_amount(frequency_rad_s, "a frequency");
+                let phase = self.amount_or(phase_rad.as_ref(), 0.0);
+                let bias = self.amount_or(bias.as_ref(), 0.0);
                 Some(Signal::Sine {
                     amplitude: amplitude?,
                     frequency_rad_s: frequency?,
@@ -93,14 +93,14 @@ impl Checker<'_> {
                 })
             }
             SourceFile::Pulse { low, high, period_s, duty, delay_s } => {
-                let low = self.float_or(low.as_ref(), 0.0);
-                let high = self.float(high);
-                let period = self.positive(period_s, "a period");
+                let low = self.amount_or(low.as_ref(), 0.0);
+                let high = self.amount(high);
+                let period = self.positive_amount(period_s, "a period");
                 let duty = match duty {
-                    Some(text) => self.fraction(text, "a duty").map(|duty| crate::algebra::to_f64(&duty)),
+                    Some(text) => self.duty(text),
                     None => Some(0.5),
                 };
-                let delay = self.float_or(delay_s.as_ref(), 0.0);
+                let delay = self.amount_or(delay_s.as_ref(), 0.0);
                 Some(Signal::Pulse {
                     low: low?,
                     high: high?,
@@ -110,8 +110,8 @@ impl Checker<'_> {
                 })
             }
             SourceFile::Step { amplitude, time_s } => {
-                let amplitude = self.float(amplitude);
-                let time = self.float_or(time_s.as_ref(), 0.0);
+                let amplitude = self.amount(amplitude);
+                let time = self.amount_or(time_s.as_ref(), 0.0);
                 Some(Signal::Step { amplitude: amplitude?, time_s: time? })
             }
         }
@@ -120,16 +120,16 @@ impl Checker<'_> {
     fn block(&mut self, file: &Spanned<BlockFile>) -> Option<Block> {
         match &file.value {
             BlockFile::Saturation { limit } => self
-                .positive(limit, "the limit of a saturation")
+                .positive_amount(limit, "the limit of a saturation")
                 .map(|limit| Block::Nonlinearity(Nonlinearity::Saturation { limit })),
             BlockFile::DeadZone { threshold } => self
-                .positive(threshold, "the threshold of a dead zone")
+                .positive_amount(threshold, "the threshold of a dead zone")
                 .map(|threshold| Block::Nonlinearity(Nonlinearity::DeadZone { threshold })),
             BlockFile::Backlash { width } => self
-                .positive(width, "the width of a backlash")
+                .positive_amount(width, "the width of a backlash")
                 .map(|width| Block::Nonlinearity(Nonlinearity::Backlash { width })),
             BlockFile::Relay { amplitude, hysteresis, dead_zone } => {
-                let amplitude = self.positive(amplitude, "the amplitude of a relay");
+                let amplitude = self.positive_amount(amplitude, "the amplitude of a relay");
                 let hysteresis_is = self.not_negative(hysteresis.as_ref(), "the hysteresis of a relay");
                 let dead_zone_is = self.not_negative(dead_zone.as_ref(), "the dead zone of a relay");
                 let (hysteresis_is, dead_zone_is) = (hysteresis_is?, dead_zone_is?);
@@ -152,11 +152,11 @@ impl Checker<'_> {
                 }))
             }
             BlockFile::Quantizer { interval } => self
-                .positive(interval, "the interval of a quantizer")
+                .positive_amount(interval, "the interval of a quantizer")
                 .map(|interval| Block::Nonlinearity(Nonlinearity::Quantizer { interval })),
             BlockFile::RateLimit { rising, falling } => {
                 let (rising, falling_is) =
-                    (self.positive(rising, "the rising rate of a rate limit"), self.float(falling));
+                    (self.positive_amount(rising, "the rising rate of a rate limit"), self.amount(falling));
                 let falling_is = falling_is?;
                 if falling_is >= 0.0 {
                     let message =
@@ -168,7 +168,7 @@ impl Checker<'_> {
                 Some(Block::Nonlinearity(Nonlinearity::RateLimit { rising: rising?, falling: falling_is }))
             }
             BlockFile::CoulombFriction { coulomb, viscous } => {
-                let coulomb = self.positive(coulomb, "the Coulomb friction");
+                let coulomb = self.positive_amount(coulomb, "the Coulomb friction");
                 let viscous = self.not_negative(viscous.as_ref(), "the viscous friction");
                 Some(Block::Nonlinearity(Nonlinearity::CoulombFriction {
                     coulomb: coulomb?,
@@ -198,7 +198,7 @@ impl Checker<'_> {
 
     /// A number of 0 or more, 0 when it is left out; `what` names it.
     fn not_negative(&mut self, text: Option<&Text>, what: &str) -> Option<f64> {
-        let value = self.float_or(text, 0.0)?;
+        let value = self.amount_or(text, 0.0)?;
         if value >= 0.0 {
             return Some(value);
         }
@@ -214,7 +214,7 @@ impl Checker<'_> {
 
     /// Highest power first, leading zeros dropped.
     fn coefficients(&mut self, file: &Spanned<Vec<Text>>) -> Option<Vec<f64>> {
-        let values: Vec<_> = file.value.iter().map(|text| self.float(text)).collect();
+        let values: Vec<_> = file.value.iter().map(|text| self.amount(text)).collect();
         let values = values.into_iter().collect::<Option<Vec<_>>>()?;
         Some(values.into_iter().skip_while(|value| *value == 0.0).collect())
     }

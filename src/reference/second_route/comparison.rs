@@ -57,7 +57,8 @@ pub(super) fn comparison_route(
     at: &OperatingPointDefinition,
     point: &OperatingPointReference,
 ) -> Option<Agreement> {
-    let (drawn, found) = (at.comparison.as_ref()?, point.comparison.as_ref()?);
+    let found = point.comparison.as_ref()?;
+    let drawn = &found.asked;
     let linearization = &point.main().linearization;
     let signal =
         SmallSignal::new(model, parameters, &at.at, &at.output, linearization, drawn.horizon_s).ok()?;
