@@ -13,6 +13,7 @@ pub(super) const SHELF: &[(&str, &str)] = shelf![
     "ball-and-beam",
     "magnetic-levitation",
     "coupled-tanks",
+    "aircraft-pitch",
     "suspension",
 ];
 

@@ -29,7 +29,7 @@ pub struct Estimates {
     columns: Vec<usize>,
     /// The columns of the inputs begin here, as many for each as an [`Entry`] has powers.
     inputs_begin: usize,
-    /// Few enough coordinates, and every slope at the point is a number.
+    /// Few enough coordinates, of orders that an [`Entry`] has room for, and every slope at the point is a number.
     usable: bool,
 }
 
@@ -65,7 +65,9 @@ impl Estimates {
             inputs_begin: next,
             usable: true,
         };
-        if !(1..=MOST_COORDINATES).contains(&own.columns.len()) || own.choices.is_empty() {
+        let mut orders = own.derivation.model.highest_derivatives().into_iter();
+        let too_high = orders.any(|(_, order)| usize::from(order) >= Entry::default().len());
+        if too_high || !(1..=MOST_COORDINATES).contains(&own.columns.len()) || own.choices.is_empty() {
             own.usable = false;
             return own;
         }
@@ -199,8 +201,8 @@ impl Estimates {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::algebra::parse_decimal;
-    use crate::model::{Coordinate, Model, Rest};
+    use crate::algebra::{Expression, parse_decimal};
+    use crate::model::{Coordinate, Equation, Model, Rest};
 
     /// Coordinates and unit, parameters, equations, and the point.
     type Plant<'a> = (
@@ -294,6 +296,23 @@ mod tests {
                 assert!((exact - factor * found).abs() <= 1e-10 * exact.abs(), "{made:?}: {exact}, {found}");
             }
         }
+    }
+
+    #[test]
+    fn a_transfer_function_of_high_order_is_followed_exactly() {
+        let mut derivation = estimates(&PLANTS[1]).derivation;
+        let (left, right) = Expression::parse_equation("h''' + A*h'' + h' + k*h = F").unwrap();
+        derivation.model.equations[0] = Equation { text: String::new(), left, right };
+        derivation.rest = Rest::default();
+        let mistakes = derivation.mistakes();
+        let own = Estimates::new(derivation.clone(), mistakes, vec![derivation.parameters]);
+        let mut found = 0;
+        own.singles(&mut |mistake, choice, function| {
+            check_alike(&own, choice, &[mistake], &function);
+            found += 1;
+        });
+        assert!(found > 3, "{found}");
+        own.pairs(&mut |pair, _| panic!("{pair:?}"));
     }
 
     /// And what is left out does lead nowhere.
