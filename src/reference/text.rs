@@ -40,9 +40,14 @@ fn operating_point(text: &mut String, model: &str, point: &OperatingPointReferen
     line(text, format_args!(""));
     let rest = if at.is_empty() { String::new() } else { format!(": {}", at.join(", ")) };
     line(text, format_args!("{model}.{} ({}){rest}", point.id, point.title));
+    let own = &point.main().linearization.transfer_function;
     for linear in &point.accepted {
         let choice: Vec<String> =
             linear.differs.iter().map(|(name, value, _)| format!("{name} = {value}")).collect();
+        // A value of a parameter that this model does not have, or not in this function.
+        if !choice.is_empty() && linear.linearization.transfer_function == *own {
+            continue;
+        }
         let label = if choice.is_empty() {
             String::new()
         } else {
@@ -152,4 +157,40 @@ fn roots_text(roots: &[Pole]) -> String {
 fn line(text: &mut String, words: std::fmt::Arguments<'_>) {
     // Writing to a String cannot fail.
     let _ = writeln!(text, "{words}");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::LabDefinition;
+    use crate::source::SourceText;
+
+    const TWO_CARTS: &str = r#"
+lab: carts
+parameters:
+  m: {value: 2}
+  g: {value: 9.8, accepted: [10]}
+models:
+  level:
+    coordinates: {x: {}}
+    inputs: {u: {}}
+    equations: ["m*x'' = u"]
+    operating_points: {rest: {input: u, output: x}}
+  hanging:
+    coordinates: {x: {}}
+    inputs: {u: {}}
+    equations: ["m*x'' + m*g*x = u"]
+    operating_points: {rest: {input: u, output: x}}
+questions:
+  level: {points: 1, about: level.rest, answer: stability}
+"#;
+
+    #[test]
+    fn accepted_values_are_told_where_they_matter() {
+        let lab = LabDefinition::parse(SourceText::new("lab.yaml", TWO_CARTS))
+            .unwrap_or_else(|e| panic!("{}", e.render(false)));
+        let text = to_text(&Reference::compute(&lab).unwrap());
+        let told: Vec<&str> = text.lines().filter(|line| line.contains("also accepted")).collect();
+        assert_eq!(told, ["  x/u = 1 / (2s^2 + 20) (also accepted, g = 10)"]);
+    }
 }
