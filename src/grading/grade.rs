@@ -1,4 +1,4 @@
-use super::accepted::{Accepted, accepted};
+use super::accepted::{Accepted, accepted, operating_point};
 use super::conflicts::note_conflicts;
 use super::follow_through::follow;
 use super::mark::{Mark, beginning};
@@ -7,7 +7,7 @@ use super::same_mistake::spare;
 use super::truth::Truth;
 use super::{
     Catalogue, HandMarks, ItemScore, Ledger, Override, QuestionScore, Scorecard, Tally, Verdict, alike,
-    concepts, cover, nonlinearity, plot, poles, shape, stability, transfer_function, value,
+    concepts, cover, nonlinearity, plot, poles, shape, stability, tangent, transfer_function, value,
 };
 use crate::lab::{Check, Criterion, Curve, LabDefinition, Question, SystemRef};
 use crate::reference::{Reference, ResponseReference};
@@ -285,6 +285,19 @@ impl<'a> Grader<'a> {
                 match value {
                     Some(AnswerValue::Shape(typed)) => shape::judge(points, &accepted, *typed),
                     _ => self.without_value(criterion, shape::expected(&accepted)),
+                }
+            }
+            Check::Tangent { of, tolerance, form, other_form } => {
+                let asked = tangent::Asked { form: *form, other_form, tolerance };
+                let point = operating_point(self.reference, of);
+                match (point, value) {
+                    (Some(point), Some(AnswerValue::Formula(typed))) => {
+                        tangent::judge(points, point, &asked, typed)
+                    }
+                    (point, _) => {
+                        let expected = point.map(|point| tangent::expected(point, *form));
+                        self.without_value(criterion, expected.unwrap_or_default())
+                    }
                 }
             }
             Check::Nonlinearity { expected } => match value {

@@ -33,6 +33,7 @@ mod scale;
 mod scorecard;
 mod shape;
 mod stability;
+mod tangent;
 mod transfer_function;
 mod truth;
 mod value;
@@ -58,6 +59,7 @@ mod tests {
             "denominator",
             "poles",
             "stability",
+            "tangent",
             "shape",
             "value",
             "plot",
@@ -104,6 +106,7 @@ mod tests {
             include_str!("same_mistake.rs"),
             include_str!("shape.rs"),
             include_str!("stability.rs"),
+            include_str!("tangent.rs"),
             include_str!("transfer_function.rs"),
             include_str!("value.rs"),
             include_str!("whose_numbers.rs"),

@@ -56,6 +56,7 @@ fn truth(features: &Features, kind: FeatureKind) -> Truth {
         FeatureKind::OvershootPercent => optional(features.overshoot_percent, 100.0),
         FeatureKind::RiseTime1090S => optional(features.rise_time_10_90_s, slowest),
         FeatureKind::RiseTime0100S => optional(features.rise_time_0_100_s, slowest),
+        FeatureKind::DcGain => optional(features.dc_gain, 0.0),
     }
 }
 

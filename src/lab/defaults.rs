@@ -1,6 +1,6 @@
 //! What a lab need not say. `docs/lab-file.md` lists these under *What may be left out*.
 
-use super::{Check, Cover, CoverRow, CoverSource, Curve, FeatureKind, Points};
+use super::{Check, Cover, CoverRow, CoverSource, Curve, FeatureKind, LineForm, Points};
 use crate::lti::InputKind;
 use crate::submission::FieldKind;
 
@@ -47,6 +47,7 @@ pub(super) fn usual_criteria(kind: FieldKind) -> &'static [(&'static str, &'stat
         FieldKind::Stability => &[("stability", "stability", 100)],
         FieldKind::Shape => &[("shape", "shape", 100)],
         FieldKind::Nonlinearity => &[("nonlinearity", "nonlinearity", 100)],
+        FieldKind::Formula => &[("tangent", "tangent", 100)],
         FieldKind::Prose => &[("prose", "concepts", 100)],
         FieldKind::Figure => &[("figure", "plot", 100)],
         FieldKind::Data => &[],
@@ -98,6 +99,13 @@ pub(super) fn prompt(kind: FieldKind, check: Option<&Check>, signals: Option<(&s
         FieldKind::Stability => "Is it stable?".to_owned(),
         FieldKind::Shape => format!("General shape of the {response}"),
         FieldKind::Nonlinearity => "Kind of nonlinearity".to_owned(),
+        FieldKind::Formula => match (check, signals) {
+            (Some(Check::Tangent { form: LineForm::Deviations, .. }), Some((output, input))) => {
+                format!("Linear model in deviations of {output} and {input}")
+            }
+            (_, Some((output, input))) => format!("Tangent: {output} as a linear function of {input}"),
+            _ => "Tangent".to_owned(),
+        },
         FieldKind::Prose => "In your own words".to_owned(),
         FieldKind::Figure => match check {
             Some(Check::Plot { curve: Curve::Response { .. }, .. }) => format!("Plot of the {response}"),

@@ -1,7 +1,7 @@
 use super::{AskedFeature, MistakesRule, Points, VariantRule};
 use crate::algebra::{Expression, Rational};
 use crate::lti::InputKind;
-use crate::model::{Comparison, Equilibrium, LinearForm, Model, Rest};
+use crate::model::{Comparison, Equilibrium, LinearForm, Model, Rest, TangentRule};
 use crate::nonlinear::{Chain, Nonlinearity};
 use crate::prose::Phrase;
 use crate::source::{SourceText, Span};
@@ -97,6 +97,8 @@ pub struct OperatingPointDefinition {
     pub output_unit: String,
     /// How the linear model is held against the nonlinear equations; `None` where the lab does not say.
     pub comparison: Option<Comparison>,
+    /// How a static function is shown beside its tangent; `None` of what moves.
+    pub tangent: Option<TangentRule>,
     pub span: Span,
 }
 
@@ -237,6 +239,14 @@ pub enum Check {
         /// The response the prose is about, when it is about one: its claims are held against that response.
         describes: Option<Described>,
     },
+    /// The tangent of a static function.
+    Tangent {
+        of: SystemRef,
+        tolerance: Tolerance,
+        form: LineForm,
+        /// What part of the points is left by the other form (0..=1).
+        other_form: Rational,
+    },
     /// The class of a nonlinearity.
     Nonlinearity {
         expected: NonlinearityKind,
@@ -259,11 +269,21 @@ impl Check {
             | Self::Stability { of }
             | Self::Feature { of, .. }
             | Self::Shape { of, .. }
+            | Self::Tangent { of, .. }
             | Self::Concepts { describes: Some(Described { of, .. }), .. }
             | Self::Plot { curve: Curve::Response { of, .. }, .. } => Some(of),
             _ => self.transfer_function(),
         }
     }
+}
+
+/// The two ways to write a tangent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LineForm {
+    /// y = 6x − 9
+    Line,
+    /// δy = 6 δx
+    Deviations,
 }
 
 #[derive(Clone, Debug, PartialEq)]

@@ -22,6 +22,8 @@ pub enum FeatureKind {
     OvershootPercent,
     RiseTime1090S,
     RiseTime0100S,
+    /// G(0).
+    DcGain,
 }
 
 /// A feature of a response as a criterion asks for it.
@@ -53,6 +55,7 @@ const FEATURES: &[(FeatureKind, &str, &str)] = &[
     (FeatureKind::OvershootPercent, "overshoot_percent", "the overshoot"),
     (FeatureKind::RiseTime1090S, "rise_time_10_90_s", "the rise time from 10 % to 90 %"),
     (FeatureKind::RiseTime0100S, "rise_time_0_100_s", "the rise time from 0 to 100 %"),
+    (FeatureKind::DcGain, "dc_gain", "the gain at rest, G(0)"),
 ];
 
 impl FeatureKind {
@@ -78,7 +81,7 @@ impl FeatureKind {
     /// The unit it is computed in; `output` is that of the response.
     pub fn unit(self, output: Option<&Unit>) -> Option<Unit> {
         match self {
-            Self::InitialValue | Self::FinalValue | Self::Peak => output.cloned(),
+            Self::InitialValue | Self::FinalValue | Self::Peak | Self::DcGain => output.cloned(),
             Self::DampingRatio => Some(Unit::one()),
             Self::NaturalFrequencyRadS | Self::DampedFrequencyRadS => Unit::parse("rad/s"),
             Self::OvershootPercent => Unit::parse("%"),

@@ -247,6 +247,21 @@ pub(super) struct OperatingPointFile {
     /// How the linear model is held against the nonlinear equations. Default: over the time an impulse response is shown, with the
     /// impulse at which they part by a tenth of the linear peak and a fifth of it.
     pub comparison: Option<ComparisonFile>,
+    /// For a system without derivatives: how its function is shown beside the tangent. Default: from 1 (or half the input, if that is
+    /// more) below the operating point to as much above.
+    pub tangent: Option<TangentFile>,
+}
+
+/// A static function beside its tangent.
+#[derive(Debug, schemars::JsonSchema, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TangentFile {
+    /// The input from which the function is shown, below the operating point.
+    pub from: Text,
+    /// The input up to which it is shown, above the operating point.
+    pub to: Text,
+    /// What the tangent may be off by, as a part of the change it foretells, > 0. Default 0.1.
+    pub departure: Option<Text>,
 }
 
 /// Linear against nonlinear, after an impulse at the input.
@@ -591,6 +606,10 @@ pub(super) struct CriterionFile {
     /// then held against the numbers. Default: it describes none.
     #[schemars(extend("enum" = schema::responses()))]
     pub describes: Option<Text>,
+    /// For `tangent`: `line` (y = 6x − 9) or `deviations` (δy = 6δx). Default `line`.
+    pub form: Option<Text>,
+    /// For `tangent`: the part of the points left by the other of the two forms, 0 to 1. Default 0.5.
+    pub other_form: Option<Text>,
     /// For `nonlinearity`: `saturation`, `dead zone`, `backlash`, …
     pub expected: Option<Text>,
 }

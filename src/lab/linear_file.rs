@@ -145,7 +145,12 @@ pub(super) fn spell_out(file: &mut LabFile) -> Result<(), Finding> {
             ("operating_points", model.operating_points.defined),
             ("channels", model.channels.defined),
         ];
+        // A static function may be nothing but its outputs.
+        let only_outputs = model.linear.is_none() && !model.outputs.0.is_empty();
         for (key, place) in keys {
+            if only_outputs && matches!(key, "coordinates" | "equations") {
+                continue;
+            }
             let is_given = place != Location::UNKNOWN;
             match (&model.linear, key) {
                 (None, "channels") if is_given => {
@@ -238,5 +243,5 @@ fn numbered(letter: &str, count: usize, place: Location) -> Vec<(Text, QuantityF
 }
 
 fn point(title: Option<String>, input: Text, output: Text) -> OperatingPointFile {
-    OperatingPointFile { title, at: Entries::default(), input, output, comparison: None }
+    OperatingPointFile { title, at: Entries::default(), input, output, comparison: None, tangent: None }
 }

@@ -159,6 +159,7 @@ fn how_to_write(kind: FieldKind) -> &'static [&'static str] {
         FieldKind::Nonlinearity => &[
             "saturation, dead zone, backlash, relay, Coulomb friction, hysteresis, quantization or rate limit",
         ],
+        FieldKind::Formula => &["such as y = 2x + 1, or dy = 2 dx in deviations"],
         FieldKind::Prose => &["sentences below the bar, indented; Markdown with $math$ if you like"],
         FieldKind::Figure => &["a PNG or JPEG beside this file, such as my-plot.png"],
         FieldKind::Data => &[

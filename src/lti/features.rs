@@ -130,6 +130,8 @@ pub struct Features {
     pub rise_time_10_90_s: Option<f64>,
     /// From 0 to the first passage of the final value, for a step response that reaches it.
     pub rise_time_0_100_s: Option<f64>,
+    /// G(0) of the transfer function behind the response, where whoever computed it has put it; `None` at a pole at the origin.
+    pub dc_gain: Option<f64>,
 }
 
 /// At most so many extrema are listed.
@@ -175,6 +177,7 @@ impl Features {
                 .filter(|_| starts_low)
                 .map(|(late, early)| late - early),
             rise_time_0_100_s: reached(1.0).filter(|_| starts_low),
+            dc_gain: None,
         }
     }
 }

@@ -14,6 +14,8 @@ mod parameters;
 mod program;
 mod rest;
 mod small_signal;
+mod static_function;
+mod tangent;
 
 pub use compare::{Comparison, ComparisonRun, ComparisonSample, compare, compare_as_usual};
 pub use equations::{Coordinate, Equation, Model, ModelError};
@@ -28,3 +30,5 @@ pub use mistakes::{Derivation, Estimates, Mistake, MistakeKind, Pair, Place, Rea
 pub use parameters::{DerivedParameter, DerivedParameters, ParameterValues};
 pub use rest::{Rest, RestValue};
 pub use small_signal::{Departure, SmallSignal};
+pub use static_function::StaticFunction;
+pub use tangent::{Tangent, TangentRule};

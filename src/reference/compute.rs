@@ -1,8 +1,11 @@
+use super::response::dc_gain;
 use super::*;
-use crate::algebra::Rational;
+use crate::algebra::{Rational, from_f64};
 use crate::lab::{LabDefinition, ModelDefinition, OperatingPointDefinition, SimulationDefinition};
 use crate::lti::{InputKind, ResponseError, RootError, roots, stability};
-use crate::model::{LetterDerivation, ModelError, compare, compare_as_usual, linearize};
+use crate::model::{
+    Exact, LetterDerivation, ModelError, StaticFunction, Tangent, compare, compare_as_usual, linearize,
+};
 use crate::nonlinear::{ChainError, Run, simulate, without_nonlinearities};
 use std::collections::BTreeMap;
 
@@ -118,6 +121,7 @@ fn operating_point_reference(
         input_unit: point.input_unit.clone(),
         output: point.output.clone(),
         output_unit: point.output_unit.clone(),
+        tangent: tangent_reference(definition, point, &choices[0], &accepted[0])?,
         accepted,
         letters: LetterDerivation::derive(
             &definition.model,
@@ -135,10 +139,15 @@ fn linear_reference(
     point: &OperatingPointDefinition,
     choice: &ParameterChoice,
 ) -> Result<LinearReference, ReferenceError> {
-    let at = point.rest.at(&definition.model, &choice.values);
-    let linearization = at
-        .and_then(|at| linearize(&definition.model, &choice.values, &at, &point.input, &point.output))
-        .map_err(|error| model_error(definition, point, error))?;
+    let in_model = |error| model_error(definition, point, error);
+    let at = point.rest.at(&definition.model, &choice.values).map_err(in_model)?;
+    let linearization =
+        linearize(&definition.model, &choice.values, &at, &point.input, &point.output).map_err(in_model)?;
+    let parameters = definition.model.derived.values(&choice.values).map_err(in_model)?;
+    let nearest = |value: &Exact| match value.as_rational() {
+        Some(value) => value.clone(),
+        None => from_f64(value.to_f64()).unwrap_or(Rational::ZERO),
+    };
     let root_error = |error| ReferenceError::Roots { point: name(definition, point), error };
     let response_error = |error| ReferenceError::Response { point: name(definition, point), error };
     let g = &linearization.transfer_function;
@@ -157,8 +166,27 @@ fn linear_reference(
         internal_stability: stability(&characteristic),
         impulse: response(InputKind::Impulse)?,
         step: response(InputKind::Step)?,
+        values: parameters
+            .iter()
+            .chain(&at.values)
+            .map(|(name, value)| (name.clone(), nearest(value)))
+            .collect(),
         linearization,
     })
+}
+
+fn tangent_reference(
+    definition: &ModelDefinition,
+    point: &OperatingPointDefinition,
+    choice: &ParameterChoice,
+    linear: &LinearReference,
+) -> Result<Option<Tangent>, ReferenceError> {
+    let Some(rule) = &point.tangent else { return Ok(None) };
+    let function =
+        StaticFunction::new(&definition.model, &choice.values, &point.at, &point.input, &point.output)
+            .map_err(|error| model_error(definition, point, error))?;
+    let slope = dc_gain(&linear.linearization.transfer_function);
+    Ok(function.zip(slope).map(|(function, slope)| Tangent::new(&function, slope, rule)))
 }
 
 fn simulation_reference(definition: &SimulationDefinition) -> Result<SimulationReference, ReferenceError> {

@@ -99,6 +99,9 @@ pub fn values_at(reference: &Reference, path: &str) -> Option<Vec<ExpectedValue>
         "comparison.parting_amplitude" => numbers([point.comparison.as_ref()?.parting_amplitude?]),
         "comparison.end_linear" => ends(point, |(_, linear, _)| *linear),
         "comparison.end_nonlinear" => ends(point, |(_, _, nonlinear)| *nonlinear),
+        "tangent.slope" => numbers([point.tangent.as_ref()?.slope]),
+        "tangent.good_from" => numbers([point.tangent.as_ref()?.good_from?]),
+        "tangent.good_to" => numbers([point.tangent.as_ref()?.good_to?]),
         "equilibrium" => numbers(point.equilibrium.iter().map(|(_, value)| *value)),
         _ => linear_values(point.main(), rest),
     }
@@ -168,6 +171,7 @@ fn feature_value(response: &ResponseReference, feature: &str) -> Option<Vec<Expe
         "overshoot_percent" => numbers([(*overshoot_percent)?]),
         "rise_time_10_90_s" => numbers([(*rise_time_10_90_s)?]),
         "rise_time_0_100_s" => numbers([(*rise_time_0_100_s)?]),
+        "dc_gain" => numbers([response.features.dc_gain?]),
         "horizon_s" => numbers([response.horizon_s]),
         _ => None,
     }

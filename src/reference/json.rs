@@ -68,8 +68,20 @@ struct OperatingPointView<'a> {
     impulse: Option<ResponseView<'a>>,
     step: Option<ResponseView<'a>>,
     accepted: Vec<AcceptedView<'a>>,
+    /// Of a static function; null of what moves.
+    tangent: Option<TangentView>,
     parting_push: Option<f64>,
     parting_amplitude: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct TangentView {
+    slope: f64,
+    input: f64,
+    output: f64,
+    departure: f64,
+    good_from: Option<f64>,
+    good_to: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -182,6 +194,14 @@ fn operating_point_view(point: &OperatingPointReference) -> OperatingPointView<'
                 poles: pole_views(&linear.poles),
             })
             .collect(),
+        tangent: point.tangent.as_ref().map(|tangent| TangentView {
+            slope: tangent.slope,
+            input: tangent.at.0,
+            output: tangent.at.1,
+            departure: tangent.rule.departure,
+            good_from: tangent.good_from,
+            good_to: tangent.good_to,
+        }),
         parting_push: point.comparison.as_ref().and_then(|c| c.parting_push),
         parting_amplitude: point.comparison.as_ref().and_then(|c| c.parting_amplitude),
     }

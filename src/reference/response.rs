@@ -1,7 +1,15 @@
+use crate::algebra::to_f64;
 use crate::lti::{Features, InputKind, Response, ResponseError, TransferFunction};
 
 /// How far, as a part of the peak, a drawn polyline may stray from the true curve.
 const DRAWING_TOLERANCE: f64 = 1e-3;
+
+/// G(0); `None` where the origin is a pole.
+pub fn dc_gain(g: &TransferFunction) -> Option<f64> {
+    let (g, _) = g.cancelled();
+    let den = g.den.coefficient(0);
+    (!den.is_zero()).then(|| to_f64(&(g.num.coefficient(0) / den)))
+}
 
 /// A response, what is said of it, and how it is drawn.
 #[derive(Clone, Debug)]
@@ -22,7 +30,7 @@ impl ResponseReference {
         let response = Response::new(g, kind)?;
         let horizon_s = response.horizon_s();
         Ok(Self {
-            features: Features::of(&response),
+            features: Features { dc_gain: dc_gain(g), ..Features::of(&response) },
             horizon_s,
             samples: response.samples(horizon_s, DRAWING_TOLERANCE),
             response,

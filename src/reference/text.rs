@@ -1,6 +1,7 @@
 use super::*;
 use crate::algebra::significant;
 use crate::lti::{Limit, Pole};
+use crate::model::Tangent;
 use std::fmt::Write;
 
 /// Figures shown of every number.
@@ -62,6 +63,10 @@ fn operating_point(text: &mut String, model: &str, point: &OperatingPointReferen
                 linear.linearization.transfer_function.to_text(FIGURES)
             ),
         );
+    }
+    if let Some(tangent) = &point.tangent {
+        static_function(text, point, tangent);
+        return;
     }
     let main = point.main();
     let cancelled = &main.linearization.cancelled;
@@ -130,6 +135,34 @@ fn response(text: &mut String, name: &str, response: Option<&ResponseReference>)
         facts.push(format!("within 2 % after {} s", significant(settling, FIGURES)));
     }
     line(text, format_args!("  {name}: {}", facts.join("; ")));
+}
+
+fn static_function(text: &mut String, point: &OperatingPointReference, tangent: &Tangent) {
+    let (x, y) = (&point.input, &point.output);
+    let shown = |value: f64| significant(value, FIGURES);
+    line(
+        text,
+        format_args!(
+            "  static: d{y} = {} d{x} about {x} = {}, {y} = {}",
+            shown(tangent.slope),
+            shown(tangent.at.0),
+            shown(tangent.at.1)
+        ),
+    );
+    if tangent.slope == 0.0 {
+        line(text, format_args!("  no linear part: the slope is 0"));
+        return;
+    }
+    let end = |value: Option<f64>| value.map_or("as far as is shown".to_owned(), shown);
+    line(
+        text,
+        format_args!(
+            "  tangent within {} % of the change it foretells: from {} to {}",
+            shown(100.0 * tangent.rule.departure),
+            end(tangent.good_from),
+            end(tangent.good_to)
+        ),
+    );
 }
 
 /// The first few of many.

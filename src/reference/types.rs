@@ -1,8 +1,9 @@
 use super::ResponseReference;
 use crate::algebra::Rational;
 use crate::lti::{InputKind, Pole, Stability};
-use crate::model::{ComparisonRun, LetterDerivation, LettersError, Linearization};
+use crate::model::{ComparisonRun, LetterDerivation, LettersError, Linearization, Tangent};
 use crate::nonlinear::Run;
+use std::collections::BTreeMap;
 
 /// Every right answer of a lab.
 #[derive(Clone, Debug)]
@@ -37,6 +38,8 @@ pub struct OperatingPointReference {
     pub letters: Result<LetterDerivation, LettersError>,
     /// The linear model beside the nonlinear equations; `None` where they are not compared.
     pub comparison: Option<ComparisonRun>,
+    /// A static function beside its tangent; `None` of what moves.
+    pub tangent: Option<Tangent>,
 }
 
 impl OperatingPointReference {
@@ -61,6 +64,8 @@ pub struct LinearReference {
     pub internal_stability: Stability,
     /// `None` of an improper transfer function, which has no ordinary responses.
     pub impulse: Option<ResponseReference>,
+    /// Parameters, and coordinates and inputs at rest, by name; an irrational one is its nearest `f64`.
+    pub values: BTreeMap<String, Rational>,
     pub step: Option<ResponseReference>,
 }
 

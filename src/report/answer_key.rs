@@ -4,15 +4,16 @@ use super::anchor::{anchor, question_anchor};
 use super::derivation::DerivationView;
 use super::figures::{
     PreparedResponse, PreparedSimulation, StudentCurves, characteristic_figure, comparison_figure,
-    feature_words, limit_words, pole_zero, root_words,
+    feature_words, limit_words, pole_zero, root_words, tangent_figure,
 };
 use super::kit::{ReportKit, trust};
 use super::math;
 use super::numbers::{complex, letter, number, quantity, typeset};
 use super::pictures::draw;
+use super::tangent;
 use super::view::{AnswerView, FigureView};
 use crate::algebra::{Polynomial, to_f64};
-use crate::lab::{LabDefinition, ModelDefinition, Question, SimulationDefinition, SystemRef};
+use crate::lab::{LabDefinition, LineForm, ModelDefinition, Question, SimulationDefinition, SystemRef};
 use crate::lti::{Features, Pole, Stability, roots};
 use crate::model::Linearization;
 use crate::nonlinear::{Block, Nonlinearity, Signal};
@@ -87,6 +88,8 @@ struct PointView {
     figures: Vec<FigureView>,
     comparisons: Vec<FigureView>,
     trust: String,
+    /// Of a static function: its deviations, its tangent, both ways; empty of what moves.
+    tangent_html: Vec<String>,
 }
 
 #[derive(Serialize)]
@@ -265,6 +268,14 @@ fn point(
             })
             .collect(),
         trust: trust(&kit.reference, system).unwrap_or_default(),
+        tangent_html: [
+            tangent::line_html(point, LineForm::Line),
+            tangent::deviations_html(point),
+            tangent::line_html(point, LineForm::Deviations),
+        ]
+        .into_iter()
+        .flatten()
+        .collect(),
     }
 }
 
@@ -281,6 +292,9 @@ fn typed_value(text: &str) -> String {
 }
 
 fn point_figures(point: &OperatingPointReference, id: impl Fn(&str) -> String) -> Vec<FigureView> {
+    if let Some(tangent) = &point.tangent {
+        return draw(&tangent_figure(point, tangent), &id("tangent")).into_iter().collect();
+    }
     let main = point.main();
     let map = pole_zero(&format!("{}: poles and zeros", point.title), &main.poles, &main.zeros, None);
     let mut drawn: Vec<_> = draw(&map, &id("map")).into_iter().collect();

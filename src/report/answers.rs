@@ -5,6 +5,7 @@ use super::figures::{limit_words, root_words};
 use super::math;
 use super::numbers::{number, quantity, typographic};
 use super::prose::{self, Highlight};
+use super::tangent;
 use crate::algebra::to_f64;
 use crate::lab::{Check, Criterion, FeatureKind, SystemRef};
 use crate::lti::Features;
@@ -47,6 +48,7 @@ fn value_html(value: &AnswerValue, prompt: &str) -> String {
         AnswerValue::Stability(stability) => text(stability.words()),
         AnswerValue::Shape(shape) => text(shape_name(*shape)),
         AnswerValue::Nonlinearity(kind) => text(nonlinearity_name(*kind)),
+        AnswerValue::Formula(formula) => math::block(&formula.to_mathml()),
         AnswerValue::Prose(markdown) => prose::to_html(markdown),
         AnswerValue::Figure(figure) => picture(figure, prompt),
         AnswerValue::Data(series) => text(&data_words(series)),
@@ -94,6 +96,7 @@ fn expected(reference: &Reference, check: &Check) -> String {
             };
             Some(format!("{lead}<ul>{list}</ul>"))
         }
+        Check::Tangent { of, form, .. } => point(of).and_then(|p| tangent::line_html(p, *form)),
         Check::Nonlinearity { expected } => Some(text(nonlinearity_name(*expected))),
     };
     html.unwrap_or_default()
@@ -116,7 +119,7 @@ pub fn reference_heading(kind: FieldKind) -> &'static str {
 /// Whether the field fits in a row of a table.
 pub fn is_short(kind: FieldKind, answered: bool) -> bool {
     match kind {
-        FieldKind::TransferFunction | FieldKind::Prose => false,
+        FieldKind::TransferFunction | FieldKind::Formula | FieldKind::Prose => false,
         FieldKind::Figure => !answered,
         _ => true,
     }
@@ -138,6 +141,7 @@ fn feature_value(features: &Features, kind: FeatureKind, unit: &str) -> String {
         FeatureKind::OvershootPercent => optional(features.overshoot_percent, "%"),
         FeatureKind::RiseTime1090S => optional(features.rise_time_10_90_s, "s"),
         FeatureKind::RiseTime0100S => optional(features.rise_time_0_100_s, "s"),
+        FeatureKind::DcGain => optional(features.dc_gain, ""),
     }
 }
 

@@ -2,6 +2,7 @@ use super::anchor::question_anchor;
 use super::figure::FigureError;
 use super::figures::parting_words;
 use super::pictures::{self, Picture};
+use super::tangent::good_words;
 use super::{answers, prose};
 use crate::lab::{LabDefinition, Question, SystemRef};
 use crate::reference::Reference;
@@ -119,6 +120,9 @@ impl QuestionKit {
 /// How far the linear model of `system` may be trusted, in words.
 pub(super) fn trust(reference: &Reference, system: &SystemRef) -> Option<String> {
     let point = answers::find(reference, system)?;
+    if let Some(tangent) = &point.tangent {
+        return Some(good_words(point, tangent));
+    }
     let run = point.comparison.as_ref()?;
     Some(parting_words(point, &run.asked, run))
 }

@@ -27,6 +27,7 @@ pub mod prose;
 mod quotes;
 mod student;
 pub mod svg;
+mod tangent;
 #[cfg(test)]
 mod tests;
 mod view;

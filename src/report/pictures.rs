@@ -5,7 +5,7 @@ use super::answers::find;
 use super::figure::{Figure, FigureError};
 use super::figures::{
     PreparedResponse, PreparedSimulation, StudentCurves, StudentRoots, characteristic_figure,
-    comparison_figure, pole_zero,
+    comparison_figure, pole_zero, tangent_figure,
 };
 use super::numbers::counted;
 use super::svg;
@@ -70,6 +70,10 @@ pub fn of_question(
     };
     for system in systems(question) {
         let Some(point) = find(reference, &system) else { continue };
+        if let Some(tangent) = &point.tangent {
+            pictures.push(Picture::Fixed(draw(&tangent_figure(point, tangent), &next_id())?));
+            continue;
+        }
         let main = point.main();
         let transfer_function_field = transfer_function_field(lab, &system);
         let (id, title) = (next_id(), format!("{}: poles and zeros", point.title));

@@ -1,4 +1,4 @@
-use super::{NonlinearityKind, Unit};
+use super::{NonlinearityKind, TypedFormula, Unit};
 use crate::algebra::{Expression, Rational};
 use crate::lti::{Shape, Stability, TransferFunction};
 use crate::source::{Finding, SourceText, Span};
@@ -57,6 +57,7 @@ pub enum AnswerValue {
     Stability(Stability),
     Shape(Shape),
     Nonlinearity(NonlinearityKind),
+    Formula(TypedFormula),
     /// Markdown as typed.
     Prose(String),
     Figure(Figure),

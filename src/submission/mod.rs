@@ -9,6 +9,7 @@ mod decimal;
 mod decimal_commas;
 mod figure;
 mod formula;
+mod formula_answer;
 mod half_said;
 mod own_claims;
 mod people;
@@ -23,6 +24,14 @@ mod unit;
 mod value;
 mod words;
 mod wrapping;
+
+pub use formula_answer::TypedFormula;
+
+/// A formula as typed, for tests of what judges it.
+#[cfg(test)]
+pub(crate) fn read_formula(text: &str) -> Option<TypedFormula> {
+    TypedFormula::read(text).ok()
+}
 
 pub use answer::{
     Answer, AnswerValue, Decimal, Figure, FinalValue, Series, Student, Submission, TypedComplex, Unreadable,

@@ -14,7 +14,8 @@ use super::words::{
 use super::wrapping::{unwrapped, without_marks};
 use super::{
     Answer, AnswerSheet, AnswerValue, Attachments, Decimal, Field, FieldKind, MAX_ATTACHMENT_BYTES,
-    Submission, TypedComplex, Unreadable, nonlinearity_word, people, shape_word, stability_word,
+    Submission, TypedComplex, TypedFormula, Unreadable, nonlinearity_word, people, shape_word,
+    stability_word,
 };
 use crate::names::nearest;
 use crate::source::{
@@ -379,6 +380,10 @@ impl<'a> Reader<'a> {
                     words: NONLINEARITY_WORDS,
                 };
                 word(node, &kind, nonlinearity_word, nonlinearities_named).map(AnswerValue::Nonlinearity)
+            }
+            FieldKind::Formula => {
+                let text = scalar(node, "formula.unreadable", "A single formula is asked for here")?;
+                TypedFormula::read(text).map(AnswerValue::Formula).map_err(|p| self.place(p, node))
             }
             FieldKind::Prose => prose(node).map(AnswerValue::Prose),
             FieldKind::Figure => {

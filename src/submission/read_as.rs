@@ -28,6 +28,10 @@ impl AnswerValue {
             Self::Stability(stability) => stability.words().to_owned(),
             Self::Shape(shape) => shape_name(*shape).to_owned(),
             Self::Nonlinearity(kind) => nonlinearity_name(*kind).to_owned(),
+            Self::Formula(formula) => match &formula.left {
+                Some(left) => format!("{left} = {}", formula.right),
+                None => formula.right.to_string(),
+            },
             Self::Prose(text) => text.trim().to_owned(),
             Self::Figure(figure) => {
                 let kind = if figure.media_type == "image/png" { "PNG" } else { "JPEG" };

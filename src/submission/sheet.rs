@@ -19,6 +19,8 @@ pub enum FieldKind {
     Shape,
     /// Saturation, dead zone, backlash, …
     Nonlinearity,
+    /// A linear function, as an equation or its right side: `y = 6x - 9`.
+    Formula,
     /// Markdown with `$math$`.
     Prose,
     /// Path of a PNG or JPEG beside the answer file.

@@ -36,6 +36,13 @@ impl Bench {
         &OSCILLATOR
     }
 
+    /// `tangent.yaml`: functions and their tangents.
+    pub fn tangents() -> &'static Self {
+        static TANGENTS: LazyLock<Bench> =
+            LazyLock::new(|| Bench::of("tangent.yaml", include_str!("tangent.yaml")));
+        &TANGENTS
+    }
+
     fn of(name: &str, text: &str) -> Self {
         let lab = LabDefinition::parse(SourceText::new(name, text));
         Self::new(lab.unwrap_or_else(|errors| panic!("{name}: {errors:#?}")))

@@ -37,6 +37,7 @@ pub(in crate::lab) const CHECKS: &[CheckRow] = &[
         &["concepts", "needed", "contradictions", "follow_through", "of", "describes"],
     ),
     ("nonlinearity", FieldKind::Nonlinearity, &["expected"]),
+    ("tangent", FieldKind::Formula, &["of", "tolerance", "form", "other_form"]),
 ];
 
 /// What a criterion is judged against.
@@ -88,6 +89,9 @@ impl Checker<'_> {
         };
         let unit = fields.units.iter().find(|(of, _)| *of == path).map(|(_, unit)| *unit);
         let check = self.check(check_name, file, question, fields, unit, names, given)?;
+        if !self.has_what_is_asked(&check, &file.check, names) {
+            return None;
+        }
         Some(Criterion {
             id: format!("{}.{}", fields.question.value, name.value),
             title: defaults::title(file.title.as_ref(), &name.value),
@@ -168,6 +172,7 @@ impl Checker<'_> {
                 let of = self.system(file, question, names);
                 Some(Check::Shape { of: of?, response: response? })
             }
+            "tangent" => self.tangent_check(file, question, names, defaults),
             "plot" => self.plot(file, question, fields, names, defaults),
             "concepts" => self.concepts(file, question, names),
             _ => {
@@ -216,7 +221,12 @@ impl Checker<'_> {
         let (output, input) = names.units_of(of?);
         let named = |text: &str| Unit::parse(text).unwrap_or_else(|| Unit::named(text));
         let output = (!output.is_empty()).then(|| named(output));
-        let native = kind.unit(output.as_ref());
+        let native = match kind {
+            FeatureKind::DcGain if !input.is_empty() => {
+                output.as_ref().and_then(|output| output.over(&Unit::parse(input)?))
+            }
+            _ => kind.unit(output.as_ref()),
+        };
         let (unit, also) = match unit {
             Some(unit) => (Some(self.asked_unit(unit, kind, native.as_ref())?), Vec::new()),
             None => {
@@ -410,7 +420,7 @@ impl Checker<'_> {
         text
     }
 
-    fn system(
+    pub(super) fn system(
         &mut self,
         file: &CriterionFile,
         question: &QuestionFile,
@@ -490,6 +500,8 @@ fn keys(file: &CriterionFile) -> Vec<(&'static str, Span)> {
     let text = |text: &Option<Text>| text.as_ref().map(span);
     [
         ("of", text(&file.of)),
+        ("form", text(&file.form)),
+        ("other_form", text(&file.other_form)),
         ("response", text(&file.response)),
         ("feature", text(&file.feature)),
         ("tolerance", file.tolerance.as_ref().map(span)),

@@ -30,10 +30,13 @@ const OF_A_RESPONSE: &[&str] = &[
     "overshoot_percent",
     "rise_time_10_90_s",
     "rise_time_0_100_s",
+    "dc_gain",
     "horizon_s",
 ];
 
 const OF_A_COMPARISON: &[&str] = &["end_linear", "end_nonlinear", "parting_push", "parting_amplitude"];
+
+const OF_A_TANGENT: &[&str] = &["slope", "good_from", "good_to"];
 
 const OF_A_SIMULATION: &[&str] =
     &["peak_with", "peak_without", "switch_times", "end_with", "end_without", "end_time_s"];
@@ -89,7 +92,8 @@ impl Checker<'_> {
             OF_A_SIMULATION.iter().map(|&s| s.to_owned()).collect()
         } else {
             let comparison = OF_A_COMPARISON.iter().map(|s| format!("comparison.{s}"));
-            linear().chain(comparison).chain(["equilibrium".to_owned()]).collect()
+            let tangent = OF_A_TANGENT.iter().map(|s| format!("tangent.{s}"));
+            linear().chain(comparison).chain(tangent).chain(["equilibrium".to_owned()]).collect()
         };
         let (end, known) = match alternative(rest) {
             Some(end) if !names.simulations.contains(&subject) => (end, linear().collect()),

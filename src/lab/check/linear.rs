@@ -1,10 +1,13 @@
-use super::{Checker, span};
+use super::parameters::Parameters;
+use super::{Checker, Names, Unresponsive, span};
 use crate::algebra::{Expression, ExpressionError, Rational};
 use crate::lab::file::{ModelFile, Spanned, Text};
 use crate::lab::linear_file::{
     LinearFile, QuotientFile, StateSpaceFile, TransferFunctionFile, ZerosPolesGainFile,
 };
-use crate::model::{Coordinate, DerivedParameters, LinearForm, Model, Root};
+use crate::lab::{Check, FeatureKind, ModelDefinition};
+use crate::model::{Coordinate, DerivedParameters, LinearForm, Model, Root, linearize};
+use std::collections::BTreeMap;
 
 type Rows = Vec<Vec<Expression>>;
 
@@ -260,6 +263,63 @@ pub(super) fn linear_model(
     let parameters = letters.iter().map(|&name| name.to_owned()).collect();
     let outputs = names[names.len().saturating_sub(linear.output_count())..].to_vec();
     Model { coordinates, inputs, parameters, derived, equations, outputs }
+}
+
+/// The systems that have no responses: static functions, and improper transfer functions.
+pub(super) fn unresponsive(
+    models: &[ModelDefinition],
+    parameters: &Parameters,
+) -> Vec<(String, Unresponsive)> {
+    let values: BTreeMap<_, _> = parameters.list.iter().map(|p| (p.name.clone(), p.value.clone())).collect();
+    let mut found = Vec::new();
+    for model in models {
+        for point in &model.operating_points {
+            let path = format!("{}.{}", model.id, point.id);
+            if model.model.is_static() {
+                found.push((path, Unresponsive::Static));
+            } else if model.linear.is_some()
+                && let Ok(linear) = linearize(&model.model, &values, &point.at, &point.input, &point.output)
+                && linear.transfer_function.relative_degree() < 0
+            {
+                found.push((path, Unresponsive::Improper));
+            }
+        }
+    }
+    found
+}
+
+impl Checker<'_> {
+    /// A criterion on poles or responses of what has none.
+    pub(super) fn has_what_is_asked(&mut self, check: &Check, text: &Text, names: &Names<'_>) -> bool {
+        let Some(of) = check.system() else { return true };
+        let path = of.to_string();
+        let Some((_, why)) = names.unresponsive.iter().find(|(known, _)| *known == path) else { return true };
+        let (what, help) = match (why, check) {
+            (
+                _,
+                Check::Structure { .. }
+                | Check::Numerator { .. }
+                | Check::Denominator { .. }
+                | Check::Tangent { .. },
+            ) => {
+                return true;
+            }
+            (Unresponsive::Static, Check::Feature { feature, .. }) if feature.kind == FeatureKind::DcGain => {
+                return true;
+            }
+            (Unresponsive::Static, _) => (
+                "is a static function: nothing in it is differentiated, so it has no poles and no responses",
+                "ask for its `dc_gain` (the slope), its `transfer_function` or its `tangent`",
+            ),
+            (Unresponsive::Improper, Check::Poles { .. } | Check::Stability { .. }) => return true,
+            (Unresponsive::Improper, _) => (
+                "has an improper transfer function: its impulse and step responses are no ordinary functions",
+                "ask for its `transfer_function`, `poles` or `stability`",
+            ),
+        };
+        self.error("lab.criterion", span(text), format!("`{path}` {what}"), Some(help.to_owned()));
+        false
+    }
 }
 
 /// What stands beside the j (or i) of an imaginary part, as bytes of `text`; `None` when there is none.

@@ -16,6 +16,7 @@ mod scalars;
 #[cfg(test)]
 mod short_tests;
 mod simulations;
+mod tangents;
 #[cfg(test)]
 mod tests;
 mod usual;
@@ -97,6 +98,16 @@ struct Names<'a> {
     /// Those of them whose output jumps, with the block that makes it jump.
     jumping: Vec<(&'a str, &'static str)>,
     questions: Vec<&'a str>,
+    /// Systems that have no responses, with the reason.
+    unresponsive: Vec<(String, Unresponsive)>,
+}
+
+/// Why a system has no responses.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Unresponsive {
+    /// Nothing in it is differentiated: it has no poles either.
+    Static,
+    Improper,
 }
 
 impl Names<'_> {
@@ -127,7 +138,7 @@ fn unit_of<'a>(quantities: &'a Entries<QuantityFile>, name: &Text) -> &'a str {
 impl Checker<'_> {
     fn lab(&mut self, file: &LabFile, tree: &Node) -> Option<LabDefinition> {
         self.id(&file.lab, "lab id");
-        let names = Names {
+        let mut names = Names {
             outcomes: file.outcomes.0.iter().map(|(id, _)| id.value.as_str()).collect(),
             systems: file
                 .models
@@ -156,6 +167,7 @@ impl Checker<'_> {
             simulations: file.simulations.0.iter().map(|(id, _)| id.value.as_str()).collect(),
             jumping: simulations::jumping(file),
             questions: file.questions.0.iter().map(|(id, _)| id.value.as_str()).collect(),
+            unresponsive: Vec::new(),
         };
         let outcomes = file.outcomes.0.iter().map(|(id, text)| {
             self.id(id, "outcome id");
@@ -165,6 +177,9 @@ impl Checker<'_> {
         let parameters = self.parameters(file);
         let variants = self.variants(file);
         let models = self.models(file, parameters.as_ref());
+        if let Some((models, parameters)) = models.as_ref().zip(parameters.as_ref()) {
+            names.unresponsive = linear::unresponsive(models, parameters);
+        }
         let simulations = self.simulations(file, &names);
         let given = self.defaults(&file.tolerances, &file.follow_through);
         let questions = self.questions(file, &names, &given);

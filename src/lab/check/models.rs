@@ -68,7 +68,7 @@ impl Checker<'_> {
             return linear.map(|linear| linear_model(linear, file, letters, derived));
         }
         let equations = &file.equations.value;
-        if equations.len() != coordinates.len() || equations.is_empty() {
+        if equations.len() != coordinates.len() || (equations.is_empty() && file.outputs.0.is_empty()) {
             let message = format!(
                 "{} equations for {} coordinates: there must be as many of one as of the other",
                 equations.len(),

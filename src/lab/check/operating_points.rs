@@ -45,6 +45,7 @@ impl Checker<'_> {
             .collect();
         let rest = Rest::new(entries);
         let at = self.balance(id, file, model_is, parameters, &rest)?;
+        let tangent = self.tangent(file, model_is, &at);
         let at_text = file.at.0.iter().map(|(name, text)| {
             let found = at.values.get(&name.value).filter(|_| solved.contains(&name.value));
             (name.value.clone(), found.map_or_else(|| text.value.clone(), ToString::to_string))
@@ -60,6 +61,7 @@ impl Checker<'_> {
             output: file.output.value.clone(),
             output_unit: watched[output?].1.to_owned(),
             comparison: comparison?,
+            tangent: tangent?,
             span: span(id),
         })
     }

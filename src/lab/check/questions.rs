@@ -12,6 +12,7 @@ pub(in crate::lab) const KINDS: &[(&str, FieldKind)] = &[
     ("stability", FieldKind::Stability),
     ("shape", FieldKind::Shape),
     ("nonlinearity", FieldKind::Nonlinearity),
+    ("formula", FieldKind::Formula),
     ("prose", FieldKind::Prose),
     ("figure", FieldKind::Figure),
     ("data", FieldKind::Data),

@@ -60,6 +60,8 @@ impl Checker<'_> {
                     contradictions: None,
                     describes: None,
                     expected: field.expected.clone(),
+                    form: None,
+                    other_form: None,
                 };
                 criteria.push((
                     text(&name_of_criterion),

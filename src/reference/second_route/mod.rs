@@ -7,6 +7,7 @@ mod letters;
 mod linear;
 mod simulations;
 mod small_signal;
+mod tangent;
 
 use super::Reference;
 use crate::lab::LabDefinition;
@@ -52,6 +53,7 @@ pub fn second_route(lab: &LabDefinition, reference: &Reference) -> Vec<Agreement
             agreements.extend(letters::letters_route(&name, point));
             agreements.extend(features::feature_routes(&name, point));
             agreements.extend(small_signal::small_signal_route(&name, model, &parameters, at, point));
+            agreements.extend(tangent::tangent_routes(&name, model, &parameters, at, point));
             agreements.extend(comparison::comparison_route(&name, model, &parameters, at, point));
         }
     }

@@ -6,9 +6,11 @@ mod nonlinear;
 mod pole_zero;
 mod response;
 mod simulation;
+mod tangent;
 
 pub use distribution::distribution;
 pub use nonlinear::{comparison_figure, parting_words};
 pub use pole_zero::{StudentRoots, pole_zero, root_words};
 pub use response::{PreparedResponse, StudentCurves, feature_words, limit_words};
 pub use simulation::{PreparedSimulation, characteristic_figure};
+pub use tangent::tangent_figure;

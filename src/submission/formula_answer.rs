@@ -1,0 +1,100 @@
+use super::problem::Problem;
+use crate::algebra::Expression;
+
+/// A formula as typed: an equation, or what would stand on its right side.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TypedFormula {
+    /// What stands before the last `=` or `≈`; `None` when nothing does, or nothing that is a formula (`f(x) =`).
+    pub left: Option<Expression>,
+    pub right: Expression,
+}
+
+const CODE: &str = "formula.unreadable";
+const HELP: &str = "Write it as `y = 2x + 1`, or `dy = 2 dx` for deviations.";
+/// More than this is no formula of a student's.
+const MOST_LETTERS: usize = 2_000;
+/// What parts the sides; the deviation signs that are read as `d`.
+const EQUALS: [&str; 6] = ["\\approx", "≈", "≅", "≃", "~=", "="];
+const DEVIATIONS: [&str; 7] = ["\\Delta", "\\delta", "Delta ", "delta ", "Δ", "∆", "δ"];
+
+impl TypedFormula {
+    /// `y = 6x - 9`, `y ≈ 9 + 6(x - 3)`, `6*(x-3)+9`; a deviation `Δx` or `δx` becomes the name `dx`.
+    pub(super) fn read(text: &str) -> Result<Self, Problem> {
+        let problem = |message: String| Problem::new(CODE, 0, text.len(), message).help(HELP);
+        if text.chars().count() > MOST_LETTERS {
+            return Err(problem(format!("This is longer than the {MOST_LETTERS} letters we read.")));
+        }
+        let plain = without_signs(text.trim().trim_matches('$'));
+        let parted = EQUALS.iter().filter_map(|sign| Some((plain.rfind(sign)?, sign.len()))).max();
+        let (left, right) = match parted {
+            Some((at, width)) => (Some(&plain[..at]), &plain[at + width..]),
+            None => (None, plain.as_str()),
+        };
+        let right = Expression::parse_typed(right.trim())
+            .map_err(|error| problem(format!("This formula cannot be read: {}.", error.message)))?;
+        // Of `y = a = b` the middle is passed over.
+        let left =
+            left.map(|left| EQUALS.iter().fold(left, |left, sign| left.split(sign).next().unwrap_or(left)));
+        let left = left.and_then(|left| Expression::parse_typed(left.trim()).ok());
+        Ok(Self { left, right })
+    }
+
+    /// As print has it.
+    pub fn to_mathml(&self) -> String {
+        match &self.left {
+            Some(left) => format!("{}<mo>=</mo>{}", left.to_mathml(), self.right.to_mathml()),
+            None => self.right.to_mathml(),
+        }
+    }
+}
+
+/// `Δx`, `\delta x` and their like as `dx`.
+fn without_signs(text: &str) -> String {
+    let mut plain = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(c) = rest.chars().next() {
+        let sign = DEVIATIONS.iter().find(|sign| rest.starts_with(**sign));
+        let after = sign.map(|sign| rest[sign.len()..].trim_start_matches([' ', '\u{a0}']));
+        match after {
+            Some(after) if after.starts_with(char::is_alphabetic) => {
+                plain.push('d');
+                rest = after;
+            }
+            _ => {
+                plain.push(c);
+                rest = &rest[c.len_utf8()..];
+            }
+        }
+    }
+    plain
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn formulas_as_students_write_them() {
+        #[track_caller]
+        fn check(text: &str, left: &str, right: &str) {
+            let read = TypedFormula::read(text).unwrap_or_else(|e| panic!("{text}: {e:?}"));
+            let shown = read.left.map_or_else(String::new, |left| left.to_string());
+            assert_eq!((shown.as_str(), read.right.to_string().as_str()), (left, right), "{text}");
+        }
+        check("y = 6x - 9", "y", "6*x - 9");
+        check("y ≈ 9 + 6(x - 3)", "y", "9 + 6*(x - 3)");
+        check("6*(x-3)+9", "", "6*(x - 3) + 9");
+        check("Δy = 6Δx", "dy", "6*dx");
+        check("\\delta y = 6 \\delta x", "dy", "6*dx");
+        check("$dy = 6 dx$", "dy", "6*dx");
+        check("y - 9 = 6(x - 3)", "y - 9", "6*(x - 3)");
+        check("y = 9 + 6(x - 3) = 6x - 9", "y", "6*x - 9");
+    }
+
+    #[test]
+    fn what_is_no_formula_is_told() {
+        for text in ["y = ", "the tangent", "y = 6x -", &"x+".repeat(3_000)] {
+            assert!(TypedFormula::read(text).is_err(), "{text}");
+        }
+    }
+}
