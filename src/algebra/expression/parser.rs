@@ -153,11 +153,12 @@ impl Parser {
         after_division: bool,
     ) -> Result<(), ExpressionError> {
         if !self.typed {
-            if let NodeKind::Symbol { name, primes: 0 } = &left.kind
+            let last = last_name(left);
+            if let NodeKind::Symbol { name, primes: 0 } = &last.kind
                 && next.kind == TokenKind::Open
             {
                 let unknown =
-                    error(left.start, left.end, format!("`{}` is not a function we know", clip(name)));
+                    error(last.start, last.end, format!("`{}` is not a function we know", clip(name)));
                 let known = Function::ALL.map(Function::name);
                 return Err(match crate::names::nearest(name, known) {
                     Some(near) => unknown.helped(format!("did you mean `{near}`?")),
@@ -326,6 +327,15 @@ fn leaf(kind: NodeKind, start: usize, end: usize) -> Parsed {
     Parsed { node: Expression::new(kind, start, end), height: 1 }
 }
 
+/// What stands last in a formula, unless it is in brackets: `cso` of `m*cso`.
+fn last_name(node: &Expression) -> &Expression {
+    let mut last = node;
+    while let Some(child) = last.children().last().filter(|child| child.end == last.end) {
+        last = child;
+    }
+    last
+}
+
 /// The last factor of a product.
 fn operand_end(node: &Expression) -> &Expression {
     match &node.kind {
@@ -421,6 +431,24 @@ mod tests {
         assert_eq!(&text[tree.start..tree.end], text);
         assert_eq!(&text[product.start..product.end], "a*(b + c)");
         assert_eq!(&text[sine.start..sine.end], "sin(d)");
+    }
+
+    #[test]
+    fn an_unknown_function_is_told_wherever_it_stands() {
+        for (text, start, end, help) in [
+            ("cso(x)", 0, 3, "did you mean `cos`?"),
+            ("m*cso(x)", 2, 5, "did you mean `cos`?"),
+            ("1 + m*l/snh(x)", 8, 11, "did you mean `sinh`?"),
+            ("-2*sqr(x)^2", 3, 6, "did you mean `sqrt`?"),
+            ("m*l^foo(x)", 4, 7, "write `foo*(` to multiply"),
+        ] {
+            let error = Expression::parse(text).unwrap_err();
+            assert_eq!((error.start, error.end), (start, end), "{text}: {error}");
+            assert!(error.message.ends_with("is not a function we know"), "{text}: {error}");
+            assert_eq!(error.help.as_deref(), Some(help), "{text}");
+        }
+        // Behind a bracket no name can be a function.
+        assert_eq!(Expression::parse("(m + x)(l)").unwrap_err().message, "an operator is missing here");
     }
 
     #[test]

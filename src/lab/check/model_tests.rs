@@ -222,6 +222,23 @@ fn what_is_wrong_with_a_model_is_said_where_it_stands() {
         "`d` is not a name we know",
         "the names are `r`, `A`, `k`, `h1`, `h2`, `q`",
     );
+    // Equations.
+    check(
+        "A*h1' = q",
+        "Ah1' = q",
+        "Ah1'",
+        "`Ah1` is not a name we know",
+        "did you mean `A*h1'`? the names are `r`, `A`, `k`, `h1`, `h2`, `q`",
+    );
+    check(
+        "A*h1' = q",
+        "A*h1'''' = q",
+        "h1''''",
+        "`h1` is differentiated 4 times: two is the most polemark takes",
+        "did you mean `h1''`?",
+    );
+    check("k*sqrt(h1)\"", "k*sqr(h1)\"", "sqr", "`sqr` is not a function we know", "did you mean `sqrt`?");
+    check("k*sqrt(h1)\"", "k*sqrt(h1\"", "(", "this bracket is never closed", "");
     // Rest.
     check(
         "q: k*sqrt(4)}",

@@ -126,7 +126,6 @@ impl Checker<'_> {
         let (left, right) = match Expression::parse_equation(&text.value) {
             Ok(sides) => sides,
             Err(error) => {
-                let error = at_function(&text.value, error);
                 self.expression_error("lab.equation", text, error);
                 return None;
             }
@@ -136,7 +135,8 @@ impl Checker<'_> {
             let SymbolUse { name, primes, start, end } = symbol;
             let place = self.locate(text, start, end);
             let alone = Expression { kind: NodeKind::Symbol { name: name.clone(), primes }, start, end };
-            if let Err(error) = alone.check_names(known) {
+            if let Err(mut error) = alone.check_names(known) {
+                error.help = error.help.map(|help| with_primes(&help, primes, moving));
                 self.expression_error("lab.equation", text, error);
             } else if primes > 0 && !moving.contains(&name.as_str()) {
                 let message = format!("`{name}` is a parameter, so it has no derivative");
@@ -144,7 +144,7 @@ impl Checker<'_> {
             } else if primes > 2 {
                 let message =
                     format!("`{name}` is differentiated {primes} times: two is the most polemark takes");
-                self.error("lab.equation", place, message, None);
+                self.error("lab.equation", place, message, Some(format!("did you mean `{name}''`?")));
             }
         }
         (self.findings.len() == before).then(|| Equation { text: text.value.clone(), left, right })
@@ -156,18 +156,13 @@ impl Checker<'_> {
     }
 }
 
-/// Where a bracket stands right after a name (`m*cso(theta)`), what is wrong with the name taken as a function.
-fn at_function(text: &str, error: ExpressionError) -> ExpressionError {
-    let (Some(before), Some("(")) =
-        (text.get(..error.start), text.get(error.start..error.end).map(str::trim))
-    else {
-        return error;
+/// `did you mean `theta`?` of a name with primes: `theta''`, where it ends in something that moves.
+fn with_primes(help: &str, primes: u8, moving: &[&str]) -> String {
+    let (head, tail) = ("did you mean `", "`?");
+    let Some((meant, rest)) = help.strip_prefix(head).and_then(|help| help.split_once(tail)) else {
+        return help.to_owned();
     };
-    let start = before.trim_end_matches(|c: char| c.is_alphanumeric() || c == '_').len();
-    match Expression::parse(&text[start..]) {
-        Err(own) if own.start == 0 && own.end == before.len() - start && own.help.is_some() => {
-            ExpressionError { start, end: before.len(), ..own }
-        }
-        _ => error,
-    }
+    let last = meant.rsplit('*').next().unwrap_or(meant);
+    let primes = if moving.contains(&last) { usize::from(primes.min(2)) } else { 0 };
+    format!("{head}{meant}{}{tail}{rest}", "'".repeat(primes))
 }

@@ -280,7 +280,7 @@ fn a_wrong_lab_says_where_and_what_to_do() {
         "(M + m)*x'''",
         "x'''",
         "`x` is differentiated 3 times: two is the most polemark takes",
-        "",
+        "did you mean `x''`?",
     );
     check(
         "at: {theta: pi}",
