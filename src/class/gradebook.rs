@@ -56,7 +56,7 @@ impl<W: Write> Gradebook<W> {
 
 /// Spreadsheets run what begins with `=`, `+`, `-`, `@`, a tab or a line end: an apostrophe makes it text. Control
 /// characters and those that reverse the reading direction are dropped.
-fn disarmed(text: &str) -> String {
+pub(super) fn disarmed(text: &str) -> String {
     let turns =
         |c: char| matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     let clean: String = text.chars().filter(|c| !c.is_control() && !turns(*c)).collect();

@@ -1,4 +1,6 @@
+use super::OtherVariant;
 use crate::grading::{ItemScore, Scorecard, Verdict};
+use crate::lab::Variant;
 use crate::source::{Finding, Severity, SourceText};
 use crate::submission::{Student, Submission};
 use std::collections::BTreeMap;
@@ -13,6 +15,10 @@ pub struct Marked {
     /// (parameter, value as typed) it was marked by; `None` where everyone has the lab's own, empty when it is not known whose
     /// it is.
     pub parameters: Option<Vec<(String, String)>>,
+    /// The variant it was marked by, where there is one.
+    pub variant: Option<Variant>,
+    /// Other students whose numbers its wrong answers are right for: for the instructor, on no student's page.
+    pub other_variants: Vec<OtherVariant>,
     /// polemark itself failed on it.
     pub failed: bool,
 }

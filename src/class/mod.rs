@@ -1,9 +1,11 @@
 //! Many submissions: intake, in parallel, gradebook, statistics. Judges nothing.
 
 mod gradebook;
+mod handouts;
 mod intake;
 mod marked;
 mod numbers;
+mod others;
 mod outcome;
 mod results;
 mod roster;
@@ -11,9 +13,11 @@ mod run;
 mod statistics;
 mod students_seen;
 
+pub use handouts::{HandoutError, Handouts, write_handouts};
 pub use intake::{AnswerFile, IntakeError, find_answer_files};
 pub use marked::Marked;
 pub use numbers::read_with_own_values;
+pub use others::OtherVariant;
 pub use outcome::Outcome;
 pub use roster::{Roster, RosterError, RosterStudent};
 pub use run::{ClassError, ClassJob, grade_class, read_capped};

@@ -1,4 +1,4 @@
-use super::Marked;
+use super::{Marked, OtherVariant};
 use crate::grading::{Cause, Conflict, Diagnosis, FollowThrough, Ledger};
 use crate::source::Severity;
 use serde::Serialize;
@@ -17,6 +17,7 @@ pub fn results_line(marked: &Marked) -> Result<String, serde_json::Error> {
             .parameters
             .as_ref()
             .map(|values| values.iter().map(|(name, value)| (name.as_str(), value.as_str())).collect()),
+        other_variant: marked.other_variants.iter().map(OtherView::of).collect(),
         total: Total {
             earned: tally.earned.as_f64(),
             possible: tally.possible.as_f64(),
@@ -75,11 +76,34 @@ struct Line<'a> {
     /// Values as typed in the lab, where they differ from student to student; empty when it is not known whose file it is.
     #[serde(skip_serializing_if = "Option::is_none")]
     parameters: Option<BTreeMap<&'a str, &'a str>>,
+    /// Other students whose numbers the wrong answers are right for; nothing changes a mark.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    other_variant: Vec<OtherView<'a>>,
     total: Total,
     items: Vec<Item<'a>>,
     ledger: LedgerView<'a>,
     findings: Vec<FindingView<'a>>,
     report: &'a str,
+}
+
+#[derive(Serialize)]
+struct OtherView<'a> {
+    students: &'a [String],
+    parameters: BTreeMap<&'a str, &'a str>,
+    fields: &'a [String],
+    chance: f64,
+}
+
+impl<'a> OtherView<'a> {
+    fn of(other: &'a OtherVariant) -> Self {
+        let parameters = other.parameters.iter().map(|(name, value)| (name.as_str(), value.as_str()));
+        Self {
+            students: &other.students,
+            parameters: parameters.collect(),
+            fields: &other.fields,
+            chance: other.chance,
+        }
+    }
 }
 
 #[derive(Serialize)]

@@ -3,6 +3,7 @@ use super::gradebook::Gradebook;
 use super::intake::{AnswerFile, UniqueNames};
 use super::marked::{Marked, our_failure, unreadable_submission};
 use super::numbers::{Bench, Benches, Numbers, WithoutNumbers, numbers, own_sheet};
+use super::others::Others;
 use super::outcome::Outcome;
 use super::results::results_line;
 use super::statistics::Statistics;
@@ -89,6 +90,7 @@ pub fn grade_class(job: &ClassJob<'_>, progress: &dyn Fn(usize)) -> Result<Outco
     let mut seen = StudentsSeen::default();
     let desk =
         Desk { job, benches: Benches::new(), without: WithoutNumbers::new(job.lab, job.reference, job.kit)? };
+    let mut others = pool.install(|| Others::new(job));
     let mut done = 0;
 
     for group in job.files.chunks(GROUP) {
@@ -111,7 +113,8 @@ pub fn grade_class(job: &ClassJob<'_>, progress: &dyn Fn(usize)) -> Result<Outco
                 Named { submission, numbers, report: format!("reports/{name}.html") }
             })
             .collect();
-        let marked = pool.install(|| desk.mark_all(named))?;
+        let mut marked = pool.install(|| desk.mark_all(named))?;
+        pool.install(|| others.point_out(job, &mut marked));
         for marked in &marked {
             writeln!(lines, "{}", results_line(marked)?)
                 .map_err(|error| ClassError::Write { path: results.path.clone(), error })?;
@@ -282,7 +285,15 @@ impl Desk<'_> {
             }
         };
         NewFile::create(job.out.join(&report))?.write_all(page.as_bytes())?;
-        Ok(Marked { parameters: numbers.values(job.lab), submission, scorecard, report, failed })
+        Ok(Marked {
+            parameters: numbers.values(job.lab),
+            variant: numbers.variant().cloned(),
+            other_variants: Vec::new(),
+            submission,
+            scorecard,
+            report,
+            failed,
+        })
     }
 
     /// Errors: what does not work with these numbers.

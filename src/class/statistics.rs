@@ -1,5 +1,6 @@
 use super::marked::Marked;
 use super::outcome::Outcome;
+use crate::english::listed;
 use crate::grading::{ItemScore, Verdict};
 use crate::lab::{LabDefinition, Points};
 use crate::report::{ClassRow, ClassSummary, QuestionMean, ReviewEntry, item_anchor};
@@ -55,6 +56,7 @@ impl Statistics {
         self.outcome.failed += usize::from(marked.failed);
         let waiting = self.review.len();
         self.review.extend(review_entries(marked, &self.fields));
+        self.review.extend(other_variant_entries(marked));
         let items = card.questions.iter().flat_map(|question| &question.items);
         let groups = items.filter_map(|item| Some((item.id.clone(), item.alike.clone()?)));
         self.groups.extend(groups);
@@ -149,6 +151,38 @@ fn review_entries<'a>(
         found: found(item),
         conflicts: conflicts(item),
         example: fields.get(&item.id).map_or_else(String::new, |field| beginning(marked, field)),
+    })
+}
+
+/// One entry for each variant of other students that wrong answers are right for.
+fn other_variant_entries(marked: &Marked) -> impl Iterator<Item = ReviewEntry> + '_ {
+    marked.other_variants.iter().filter_map(|other| {
+        let items = marked.scorecard.questions.iter().flat_map(|question| &question.items);
+        let field = other.fields.first()?;
+        let below = format!("{field}.");
+        let item = items.into_iter().find(|item| item.id == *field || item.id.starts_with(&below))?;
+        let students: Vec<&str> = marked.submission.students.iter().map(|student| student.id.as_str()).collect();
+        let values = other.parameters.iter().map(|(name, value)| format!("{name} = {value}"));
+        Some(ReviewEntry {
+            student: students.join(", "),
+            item: item.id.clone(),
+            title: item.title.clone(),
+            link: format!("{}#{}", marked.report, item_anchor(&item.id)),
+            why: format!(
+                "wrong for their own values, but right for those of {} ({}) in {}; by chance at most 1 in {} such answers. No mark rests \
+                 on it",
+                listed(&other.students, "and"),
+                values.collect::<Vec<_>>().join(", "),
+                listed(&other.fields, "and"),
+                (1.0 / other.chance.max(1e-9)).floor()
+            ),
+            earned: item.earned,
+            possible: item.possible,
+            alike: None,
+            found: String::new(),
+            conflicts: Vec::new(),
+            example: String::new(),
+        })
     })
 }
 

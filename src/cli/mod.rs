@@ -1,7 +1,8 @@
-//! The command line: new · check · grade · verify · reference. Alone prints, reads the environment, ends the process.
+//! The command line: new · handout · check · grade · verify · reference. Alone prints, reads the environment, ends the process.
 
 mod check;
 mod grade;
+mod handout;
 mod new;
 mod outcome;
 mod reference;
@@ -23,6 +24,7 @@ struct Arguments {
 enum Verb {
     New(new::Arguments),
     Check(check::Arguments),
+    Handout(handout::Arguments),
     Grade(grade::Arguments),
     Verify(verify::Arguments),
     Reference(reference::Arguments),
@@ -36,6 +38,7 @@ pub fn main() -> ExitCode {
     let done = match Arguments::parse().verb {
         Verb::New(arguments) => new::run(&arguments),
         Verb::Check(arguments) => check::run(&arguments),
+        Verb::Handout(arguments) => handout::run(&arguments),
         Verb::Grade(arguments) => grade::run(&arguments),
         Verb::Verify(arguments) => verify::run(&arguments),
         Verb::Reference(arguments) => reference::run(&arguments),

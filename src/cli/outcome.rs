@@ -81,6 +81,8 @@ pub fn load_roster(path: &Path) -> Result<Roster, Failure> {
 pub enum StudentError {
     #[error("`{lab}` has the same numbers for everyone; leave out `--student`")]
     SameForAll { lab: String },
+    #[error("students of `{lab}` have values of their own: say with `--roster` who they are")]
+    NoRoster { lab: String },
     #[error("the student id `{id}` has no letter or digit in it")]
     NoId { id: String },
 }

@@ -22,6 +22,7 @@ mod ledger;
 mod likeness;
 mod mark;
 mod nonlinearity;
+pub mod other_variant;
 mod own;
 mod own_claims;
 mod own_poles;

@@ -30,6 +30,14 @@ pub struct VariedParameter {
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Variant(Vec<usize>);
 
+impl Variant {
+    /// Places of the parameters in which two variants of one lab differ.
+    pub fn differing(&self, other: &Self) -> Vec<usize> {
+        let pairs = self.0.iter().zip(&other.0).enumerate();
+        pairs.filter(|(_, (one, two))| one != two).map(|(place, _)| place).collect()
+    }
+}
+
 impl VariantRule {
     /// The variant of a student: a function of the seed, the parameters' names and lists, and the folded id, nothing else.
     ///

@@ -280,7 +280,7 @@ fn point(
 }
 
 /// The equilibrium as the lab's author typed it: `pi` → π.
-fn typed_value(text: &str) -> String {
+pub(super) fn typed_value(text: &str) -> String {
     match crate::algebra::Expression::parse(text) {
         Ok(expression) => math::inline(&expression.to_mathml()),
         Err(_) => {
@@ -422,7 +422,7 @@ fn simulation(definition: &SimulationDefinition, reference: &SimulationReference
 }
 
 /// `8 V sine at 1 rad/s → saturation at ±5 → 0.2083/(s + 1.71)`.
-fn chain_words(definition: &SimulationDefinition) -> String {
+pub(super) fn chain_words(definition: &SimulationDefinition) -> String {
     let unit = definition.input_unit.as_str();
     let source = match definition.chain.source {
         Signal::Sine { amplitude, frequency_rad_s, bias, .. } => {

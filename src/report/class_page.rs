@@ -181,7 +181,7 @@ fn review(kit: &ReportKit, entries: &[ReviewEntry]) -> Vec<ReviewGroup> {
             };
             ReviewGroup {
                 title,
-                why: first.why.clone(),
+                why: sanitize(&first.why).to_string(),
                 amount: counted(entries.len(), "mark"),
                 open: entries.len() <= OPEN,
                 groups: alike(&entries),

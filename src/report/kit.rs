@@ -8,6 +8,7 @@ use crate::lab::{LabDefinition, Question, SystemRef};
 use crate::reference::Reference;
 use crate::submission::FieldKind;
 use minijinja::syntax::SyntaxConfig;
+use minijinja::value::Serde;
 use minijinja::{Environment, UndefinedBehavior};
 
 /// Everything in the reports that does not depend on a student: templates read, question texts and reference figures rendered.
@@ -53,23 +54,14 @@ const TEMPLATES: [(&str, &str); 7] = [
     ("student.html", include_str!("../../templates/student.html")),
     ("derivation.html", include_str!("../../templates/derivation.html")),
     ("reference.html", include_str!("../../templates/reference.html")),
+    ("handout.html", include_str!("../../templates/handout.html")),
     ("class.html", include_str!("../../templates/class.html")),
 ];
 
 impl ReportKit {
     /// Errors: a reference curve that cannot be drawn.
     pub fn new(lab: &LabDefinition, reference: &Reference) -> Result<Self, ReportError> {
-        let mut environment = Environment::new();
-        environment.set_undefined_behavior(UndefinedBehavior::Strict);
-        let syntax = SyntaxConfig::builder().trim_blocks(true).lstrip_blocks(true).build();
-        environment.set_syntax(syntax.map_err(|source| ReportError::Template { name: "base.html", source })?);
-        for (name, source) in TEMPLATES {
-            environment
-                .add_template(name, source)
-                .map_err(|source| ReportError::Template { name, source })?;
-        }
-        environment.add_global("version", env!("CARGO_PKG_VERSION"));
-        Self::within(environment, lab, reference)
+        Self::within(environment()?, lab, reference)
     }
 
     /// The same for a lab with other numbers, and what is right by them.
@@ -86,6 +78,29 @@ impl ReportKit {
             lab.questions.iter().map(|q| QuestionKit::new(lab, reference, q)).collect::<Result<_, _>>()?;
         Ok(Self { environment, lab: lab.clone(), reference: reference.clone(), questions })
     }
+}
+
+/// The templates, read.
+pub(super) fn environment() -> Result<Environment<'static>, ReportError> {
+    let mut environment = Environment::new();
+    environment.set_undefined_behavior(UndefinedBehavior::Strict);
+    let syntax = SyntaxConfig::builder().trim_blocks(true).lstrip_blocks(true).build();
+    environment.set_syntax(syntax.map_err(|source| ReportError::Template { name: "base.html", source })?);
+    for (name, source) in TEMPLATES {
+        environment.add_template(name, source).map_err(|source| ReportError::Template { name, source })?;
+    }
+    environment.add_global("version", env!("CARGO_PKG_VERSION"));
+    Ok(environment)
+}
+
+/// A page.
+pub(super) fn render(environment: &Environment<'_>, template: &str, page: &impl serde::Serialize) -> String {
+    let rendered = environment.get_template(template).and_then(|t| t.render(Serde(page)));
+    // Templates and views are ours, and tested together; if they disagree all the same, the reader is told.
+    rendered.unwrap_or_else(|e| {
+        let words = prose::as_typed(&format!("polemark could not write this page: {e:#}"));
+        format!("<!doctype html><html lang=\"en\"><title>Report</title>{words}</html>")
+    })
 }
 
 impl QuestionKit {

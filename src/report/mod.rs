@@ -13,6 +13,7 @@ mod explaining_tests;
 pub mod figure;
 pub mod figures;
 mod given;
+mod handout;
 mod items;
 mod kit;
 mod ledger;
@@ -34,4 +35,5 @@ mod view;
 
 pub use anchor::{item_anchor, question_anchor};
 pub use class_summary::{ClassRow, ClassSummary, QuestionMean, ReviewEntry};
+pub use handout::{HandoutKit, HandoutStudent};
 pub use kit::{ReportError, ReportKit};

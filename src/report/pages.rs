@@ -1,9 +1,8 @@
 use super::class_summary::ClassSummary;
-use super::kit::ReportKit;
-use super::{answer_key, class_page, prose, student};
+use super::kit::{self, ReportKit};
+use super::{answer_key, class_page, student};
 use crate::grading::Scorecard;
 use crate::submission::Submission;
-use minijinja::value::Serde;
 
 impl ReportKit {
     /// The report of one submission, one self-contained HTML file.
@@ -27,11 +26,6 @@ impl ReportKit {
     }
 
     fn render(&self, template: &str, page: &impl serde::Serialize) -> String {
-        let rendered = self.environment.get_template(template).and_then(|t| t.render(Serde(page)));
-        // Templates and views are ours, and tested together; if they disagree all the same, the reader is told.
-        rendered.unwrap_or_else(|e| {
-            let words = prose::as_typed(&format!("polemark could not write this page: {e:#}"));
-            format!("<!doctype html><html lang=\"en\"><title>Report</title>{words}</html>")
-        })
+        kit::render(&self.environment, template, page)
     }
 }

@@ -234,3 +234,115 @@ fn keys_and_templates_are_a_students_own() {
     class.run(&["new", "--student", "EE-001"], 2);
     assert!(Path::new(LAB).exists());
 }
+
+#[test]
+fn answers_for_somebody_elses_numbers_are_pointed_out_to_the_instructor_alone() {
+    let (lab, class) = (pendulum(), Class::new());
+    let ids: Vec<String> = (0..12).map(|number| format!("ME-{number:03}")).collect();
+    for id in &ids {
+        class.hand_in(&format!("{id}.yaml"), &answers(&of(id), given(&lab, id)));
+    }
+    // Two whose masses and lengths differ change places.
+    let (one, two) = ids
+        .iter()
+        .flat_map(|one| ids.iter().map(move |two| (one, two)))
+        .find(|(one, two)| {
+            let (a, b) = (given(&lab, one), given(&lab, two));
+            a.m != b.m && a.l != b.l
+        })
+        .expect("a pair");
+    class.hand_in(&format!("{one}.yaml"), &answers(&of(one), given(&lab, two)));
+    let marked = class.grade(&[]);
+    for id in &ids {
+        let line = &marked[&format!("{id}.yaml")];
+        if id != one {
+            assert!(line.get("other_variant").is_none(), "{id}: {line:#}");
+            assert_eq!(earned(line), 20.0, "{id}");
+            continue;
+        }
+        let others = line["other_variant"].as_array().expect("a list");
+        assert_eq!(others.len(), 1, "{others:#?}");
+        assert!(others[0]["students"].as_array().expect("ids").contains(&two.as_str().into()), "{others:#?}");
+        let fields = others[0]["fields"].to_string();
+        assert!(
+            fields.contains("down.transfer_function") && fields.contains("up.response.poles"),
+            "{fields}"
+        );
+        assert!(others[0]["chance"].as_f64().expect("a number") < 0.01, "{others:#?}");
+        let page = class.read(&format!("out/reports/{one}.html"));
+        assert!(!page.contains(two.as_str()), "no other student on a student's page");
+    }
+    let index = class.read("out/index.html");
+    assert!(index.contains(&format!("right for those of {two}")), "{index}");
+}
+
+#[test]
+fn a_few_small_numbers_are_no_evidence() {
+    let (lab, class) = (pendulum(), Class::new());
+    for id in ["ME-001", "ME-002"] {
+        class.hand_in(&format!("{id}.yaml"), &answers(&of(id), given(&lab, id)));
+    }
+    let other = given(&lab, "ME-002");
+    let period = 2.0 * std::f64::consts::PI
+        / (9.81 / other.l - (other.b / (2.0 * other.m * other.l * other.l)).powi(2)).sqrt();
+    class.hand_in(
+        "ME-001.yaml",
+        &format!(
+            "lab: pendulum-of-ones-own\n{}\nanswers:\n  down.transfer_function: 1/(s^2 + 1)\n  down.response:\n    \
+             period: {period:.4}\n    final_value: 0\n",
+            of("ME-001")
+        ),
+    );
+    let marked = class.grade(&[]);
+    assert!(marked["ME-001.yaml"].get("other_variant").is_none(), "{:#}", marked["ME-001.yaml"]);
+}
+
+#[test]
+fn the_number_of_threads_changes_nothing() {
+    let (lab, class) = (pendulum(), Class::new());
+    for number in 0..20 {
+        let id = format!("ME-{number:03}");
+        let theirs = format!("ME-{:03}", number / 2);
+        class.hand_in(&format!("{id}.yaml"), &answers(&of(&id), given(&lab, &theirs)));
+    }
+    let run = |threads: &str| {
+        class.grade(&["--threads", threads]);
+        ["out/results.jsonl", "out/index.html", "out/gradebook.csv", "out/reports/ME-007.html"]
+            .map(|name| class.read(name))
+    };
+    assert!(run("1") == run("4"));
+}
+
+#[test]
+fn everyone_gets_a_sheet_and_an_answer_file() {
+    let (lab, class) = (pendulum(), Class::new());
+    let roster = "Section,\"Student, full name\",Student ID,Name\n1,x,ME-001,Ada One\n1,x,../../ME 002,<b>Two</b>\n1,x,=cmd|calc,\"=HYPERLINK(\"\"x\"\")\"\n";
+    std::fs::write(class.path("roster.csv"), roster).expect("written");
+    let told = class.run(&["handout", LAB, "--roster", "roster.csv", "--out", "sheets"], 0);
+    assert!(told.contains("3 sheets in sheets") && told.contains("of 60 possible"), "{told}");
+    let sheet = class.read("sheets/ME-001/handout.html");
+    let Given { m, l, b } = given(&lab, "ME-001");
+    for value in [m, l, b] {
+        assert!(sheet.contains(&format!("<td class=\"num\">{value}</td>")), "{value}: {sheet}");
+    }
+    assert!(sheet.contains("Ada One") && sheet.contains("Question 1") && sheet.contains("<math"));
+    assert!(!sheet.contains("24.525") && !sheet.contains("decaying"), "nothing of the answers");
+    let template = class.read("sheets/ME-001/answers.yaml");
+    assert!(template.contains("id: \"ME-001\"") && template.contains(&format!("# m = {m} kg")), "{template}");
+    let hostile = class.read("sheets/ME-002/handout.html");
+    assert!(hostile.contains("&lt;b&gt;Two") && !hostile.contains("<b>Two"), "{hostile}");
+    let list = class.read("sheets/variants.csv");
+    assert!(list.starts_with("student_id,student_name,folder,m,l,b\nME-001,Ada One,ME-001,"), "{list}");
+    assert!(list.contains("'=cmd|calc,") && list.contains("\"'=HYPERLINK(\"\"x\"\")\""), "{list}");
+    // An answer file reads back as blank, whoever it is of, and is left alone when it was filled in.
+    class.run(&["check", "sheets/ME-002/answers.yaml", "--lab", LAB], 0);
+    class.run(&["check", "sheets/cmd-calc/answers.yaml", "--lab", LAB], 0);
+    std::fs::write(class.path("sheets/ME-001/answers.yaml"), "mine").expect("written");
+    let again = class.run(&["handout", LAB, "--roster", "roster.csv", "--out", "sheets"], 0);
+    assert!(again.contains("1 answer file that were there") || again.contains("left"), "{again}");
+    assert_eq!(class.read("sheets/ME-001/answers.yaml"), "mine");
+    assert_eq!(class.read("sheets/ME-001/handout.html"), sheet);
+    class.run(&["handout", LAB, "--out", "none"], 2);
+    class.run(&["handout", "--out", "common"], 0);
+    assert!(class.read("common/handout.html").contains("Linearization of nonlinear systems"));
+}
