@@ -170,15 +170,10 @@ pub fn own_sheet(lab: &LabDefinition, variant: &Variant) -> Option<AnswerSheet> 
     lab.with_variant(variant).ok().map(|lab| lab.sheet)
 }
 
-/// A lab with a variant's values, and what is right by them, without comparisons and simulations: those take most of the time,
-/// and no number rests on them. `None` when it does not work with these values.
+/// A lab with a variant's values, and the numbers that are right by them; `None` when it does not work with these values.
 pub fn light_reference(lab: &LabDefinition, variant: &Variant) -> Option<(LabDefinition, Reference)> {
-    let mut lab = lab.with_variant(variant).ok()?;
-    lab.simulations.clear();
-    for point in lab.models.iter_mut().flat_map(|model| &mut model.operating_points) {
-        point.comparison = None;
-    }
-    let reference = Reference::compute(&lab).ok()?;
+    let lab = lab.with_variant(variant).ok()?;
+    let reference = Reference::numbers(&lab).ok()?;
     Some((lab, reference))
 }
 
@@ -198,6 +193,7 @@ impl WithoutNumbers {
             let of = |point: &str| SystemRef { model: model.id.clone(), operating_point: point.to_owned() };
             model.operating_points.retain(|point| !lab.is_varied(&of(&point.id)));
         }
+        reference.simulations.clear();
         let mut lab = lab.clone();
         lab.parameters.clear();
         let kit = kit.with_numbers(&lab, &reference)?;

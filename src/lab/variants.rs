@@ -1,4 +1,4 @@
-use super::{Criterion, LabDefinition, LabErrors, SystemRef};
+use super::{Check, Criterion, Curve, LabDefinition, LabErrors, SystemRef};
 use crate::algebra::{Expression, Rational};
 use crate::source::Span;
 use sha2::{Digest, Sha256};
@@ -118,9 +118,12 @@ impl LabDefinition {
         rule.parameters.iter().any(|one| letters.contains(&one.name))
     }
 
-    /// Whether a criterion judges by numbers that differ from student to student.
+    /// Whether a criterion judges by numbers that may differ from student to student; simulations may take any parameter.
     pub fn judges_varied(&self, criterion: &Criterion) -> bool {
-        criterion.check.system().is_some_and(|of| self.is_varied(of))
+        match &criterion.check {
+            Check::Plot { curve: Curve::Simulation { .. }, .. } => self.variants.is_some(),
+            check => check.system().is_some_and(|of| self.is_varied(of)),
+        }
     }
 
     /// The variant of a student; `None` when the lab has none, or the id says nothing.

@@ -42,6 +42,32 @@ pub(super) fn mistakes_are_told_apart(lab: &LabDefinition, reference: &Reference
     checks
 }
 
+/// How many different wrong functions the mistakes lead to, over all operating points that are asked about.
+///
+/// Errors: in words, mistakes that no answer tells from the truth, and that the lab does not declare.
+pub(super) fn wrong_functions(lab: &LabDefinition, reference: &Reference) -> Result<usize, String> {
+    let mut count = 0;
+    for model in &lab.models {
+        let asked = model.operating_points.iter().filter(|point| is_asked(lab, model, point));
+        let led: Vec<_> = asked
+            .map(|point| (point, Led::new(lab, model, point, &right_functions(reference, model, point))))
+            .collect();
+        let told: BTreeSet<&str> = led
+            .iter()
+            .flat_map(|(_, led)| led.groups.iter().flatten().chain(&led.none))
+            .map(|mistake| mistake.change.as_str())
+            .collect();
+        for (point, led) in &led {
+            let check = led.beside_the_truth(lab, model, point, &told);
+            if !check.holds {
+                return Err(format!("{}: {}", check.what, check.found));
+            }
+            count += led.groups.len();
+        }
+    }
+    Ok(count)
+}
+
 /// Where mistakes lead.
 struct Led {
     /// Mistakes that lead to the same wrong function.

@@ -1,7 +1,9 @@
 //! A lab proves itself: its key agrees with stated values and with a second route, its model answer earns everything,
 //! a blank nothing.
 
+mod computed_answer;
 mod mistakes;
+mod variants;
 
 use crate::grading::{Catalogue, ItemScore, Verdict, grade};
 use crate::lab::{LabDefinition, Points};
@@ -32,6 +34,7 @@ pub fn prove(lab: &LabDefinition, reference: &Reference) -> Vec<Check> {
     checks.push(template_is_blank(lab));
     checks.extend(answers_of_other_points_are_told_apart(lab, reference));
     checks.extend(mistakes::mistakes_are_told_apart(lab, reference));
+    checks.extend(variants::variants_are_fair(lab, reference));
     checks
 }
 

@@ -4,9 +4,9 @@
 //! equations, the catalogue of mistakes, an answer sheet that is worked out and marked) is done for a few of them: every one when
 //! there are no more than [`MOST_CLOSELY`], else so many, evenly spread, the first and the last among them.
 
+use super::Check;
 use super::computed_answer::{computed_answer, is_computed};
-use super::mistakes::Led;
-use super::{Check, is_asked};
+use super::mistakes::wrong_functions;
 use crate::grading::{Catalogue, Verdict, grade};
 use crate::lab::{Check as Judged, LabDefinition, Points, Variant, VariantRule};
 use crate::lti::{InputKind, Limit, Pole};
@@ -45,8 +45,11 @@ pub(super) fn variants_are_fair(lab: &LabDefinition, reference: &Reference) -> V
             false,
         ),
     }];
-    let solved: Vec<(&Variant, &Looked)> =
-        all.iter().zip(&looked).filter_map(|(variant, looked)| Some((variant, looked.as_ref().ok()?))).collect();
+    let solved: Vec<(&Variant, &Looked)> = all
+        .iter()
+        .zip(&looked)
+        .filter_map(|(variant, looked)| Some((variant, looked.as_ref().ok()?)))
+        .collect();
     checks.push(equally_hard(rule, &difficulty(lab, reference), &solved, &check));
     checks.push(different(rule, &solved, &check));
     let close: Vec<&Variant> = spread(&all, MOST_CLOSELY);
@@ -73,18 +76,17 @@ impl Looked {
             let both = g.num.coefficients().iter().chain(g.den.coefficients());
             both.map(ToString::to_string).collect::<Vec<_>>().join(" ")
         });
-        Ok(Self { answers: functions.collect::<Vec<_>>().join("; "), difficulty: difficulty(&lab, &reference) })
+        Ok(Self {
+            answers: functions.collect::<Vec<_>>().join("; "),
+            difficulty: difficulty(&lab, &reference),
+        })
     }
 }
 
-/// The lab with a variant's values, without what takes long and decides no number.
+/// The lab with a variant's values, and what is right by them.
 fn light(lab: &LabDefinition, variant: &Variant) -> Result<(LabDefinition, Reference), String> {
-    let mut lab = lab.with_variant(variant).map_err(|errors| errors.to_string())?;
-    lab.simulations.clear();
-    for point in lab.models.iter_mut().flat_map(|model| &mut model.operating_points) {
-        point.comparison = None;
-    }
-    let reference = Reference::compute(&lab).map_err(|error| error.to_string())?;
+    let lab = lab.with_variant(variant).map_err(|errors| errors.to_string())?;
+    let reference = Reference::numbers(&lab).map_err(|error| error.to_string())?;
     Ok((lab, reference))
 }
 
@@ -120,7 +122,9 @@ fn how_hard(one: &LinearReference, asked: &[&Judged]) -> String {
         format!("{} different poles", one.poles.len()),
         format!(
             "{} coefficients that are 0",
-            zero(g.num.coefficients().iter().chain(g.den.coefficients()).map(crate::algebra::to_f64).collect())
+            zero(
+                g.num.coefficients().iter().chain(g.den.coefficients()).map(crate::algebra::to_f64).collect()
+            )
         ),
     ];
     let mut responses: BTreeSet<&str> = BTreeSet::new();
@@ -214,21 +218,6 @@ fn closely(lab: &LabDefinition, variant: &Variant) -> Result<usize, String> {
     wrong_functions(&lab, &reference)
 }
 
-/// Errors: a mistake that nobody could tell from the truth, and that the lab does not declare.
-fn wrong_functions(lab: &LabDefinition, reference: &Reference) -> Result<usize, String> {
-    let mut count = 0;
-    for model in &lab.models {
-        for point in model.operating_points.iter().filter(|point| is_asked(lab, model, point)) {
-            let led = Led::of(lab, reference, model, point);
-            if let Some(mistake) = led.undeclared(lab, model).first() {
-                return Err(format!("at {}.{} no answer shows `{}`", model.id, point.id, mistake.change));
-            }
-            count += led.different();
-        }
-    }
-    Ok(count)
-}
-
 /// A variant may lose one in ten of the different wrong functions that the lab's own values have, by some coincidence of values.
 fn told_apart(
     rule: &VariantRule,
@@ -245,7 +234,11 @@ fn told_apart(
     let own = wrong_functions(lab, reference).unwrap_or(0);
     let worst = closely.iter().filter_map(|(variant, found)| Some((found.as_ref().ok()?, *variant)));
     let Some((worst, variant)) = worst.min() else { return check(what, "none to look at".to_owned(), true) };
-    let amount = if closely.len() == all { format!("in all {all}") } else { format!("in {} of {all}, evenly spread", closely.len()) };
+    let amount = if closely.len() == all {
+        format!("in all {all}")
+    } else {
+        format!("in {} of {all}, evenly spread", closely.len())
+    };
     let found = format!(
         "{amount}, at least {worst} different wrong functions (with {}); {own} with the lab's own values",
         rule.words(variant)
@@ -274,10 +267,16 @@ fn own_answers(
         let answer = computed_answer(lab, reference);
         let (earned, all, lost) = earned(lab, reference, &answer);
         if let Some(lost) = lost {
-            return check(what, format!("with {} the computed answer loses {lost}", rule.words(variant)), false);
+            return check(
+                what,
+                format!("with {} the computed answer loses {lost}", rule.words(variant)),
+                false,
+            );
         }
         possible = all;
-        for (_, (other, other_lab, other_reference)) in solved.iter().enumerate().filter(|(one, _)| *one != place) {
+        for (_, (other, other_lab, other_reference)) in
+            solved.iter().enumerate().filter(|(one, _)| *one != place)
+        {
             let theirs = self::earned(other_lab, other_reference, &answer).0;
             if theirs >= earned && !same_answers(reference, other_reference) {
                 let found = format!(
@@ -307,7 +306,7 @@ fn earned(
     let mut sum = (Points::ZERO, Points::ZERO, None);
     let criteria = lab.questions.iter().flat_map(|question| &question.criteria);
     let items = card.questions.iter().flat_map(|question| &question.items);
-    for (criterion, item) in criteria.zip(items).filter(|(criterion, _)| is_computed(lab, criterion)) {
+    for (_, item) in criteria.zip(items).filter(|(criterion, _)| is_computed(lab, criterion)) {
         // What follows from another answer is no answer of one's own.
         if item.verdict == Verdict::Right && item.follow_through.is_none() {
             sum.0 += item.earned;

@@ -4,7 +4,8 @@ use crate::algebra::{Rational, from_f64};
 use crate::lab::{LabDefinition, ModelDefinition, OperatingPointDefinition, SimulationDefinition};
 use crate::lti::{InputKind, ResponseError, RootError, roots, stability};
 use crate::model::{
-    Exact, LetterDerivation, ModelError, StaticFunction, Tangent, compare, compare_as_usual, linearize,
+    Exact, LetterDerivation, LettersError, ModelError, StaticFunction, Tangent, compare, compare_as_usual,
+    linearize,
 };
 use crate::nonlinear::{ChainError, Run, simulate, without_nonlinearities};
 use std::collections::BTreeMap;
@@ -34,11 +35,16 @@ impl Reference {
     ///
     /// Errors: an operating point that is not an equilibrium, a response or a simulation that leaves the range of numbers.
     pub fn compute(lab: &LabDefinition) -> Result<Self, ReferenceError> {
-        let choices = parameter_choices(lab);
-        let models =
-            lab.models.iter().map(|model| model_reference(model, &choices)).collect::<Result<_, _>>()?;
+        let models = model_references(lab, true)?;
         let simulations = lab.simulations.iter().map(simulation_reference).collect::<Result<_, _>>()?;
         Ok(Self { lab: lab.id.clone(), models, simulations })
+    }
+
+    /// The numbers alone: without letters, comparisons with the nonlinear equations, and simulations, which take most of the time.
+    ///
+    /// Errors: as [`Reference::compute`].
+    pub fn numbers(lab: &LabDefinition) -> Result<Self, ReferenceError> {
+        Ok(Self { lab: lab.id.clone(), models: model_references(lab, false)?, simulations: Vec::new() })
     }
 
     /// The operating point `of` names, if there is one.
@@ -71,14 +77,21 @@ fn parameter_choices(lab: &LabDefinition) -> Vec<ParameterChoice> {
     choices
 }
 
+/// `whole`: with letters and comparisons.
+fn model_references(lab: &LabDefinition, whole: bool) -> Result<Vec<ModelReference>, ReferenceError> {
+    let choices = parameter_choices(lab);
+    lab.models.iter().map(|model| model_reference(model, &choices, whole)).collect()
+}
+
 fn model_reference(
     definition: &ModelDefinition,
     choices: &[ParameterChoice],
+    whole: bool,
 ) -> Result<ModelReference, ReferenceError> {
     let operating_points = definition
         .operating_points
         .iter()
-        .map(|point| operating_point_reference(definition, point, choices))
+        .map(|point| operating_point_reference(definition, point, choices, whole))
         .collect::<Result<_, _>>()?;
     Ok(ModelReference { id: definition.id.clone(), title: definition.title.clone(), operating_points })
 }
@@ -87,6 +100,7 @@ fn operating_point_reference(
     definition: &ModelDefinition,
     point: &OperatingPointDefinition,
     choices: &[ParameterChoice],
+    whole: bool,
 ) -> Result<OperatingPointReference, ReferenceError> {
     let accepted = choices
         .iter()
@@ -109,8 +123,13 @@ fn operating_point_reference(
         )
     };
     let comparison = match &point.comparison {
-        Some(comparison) => Some(compared(comparison)?),
-        None => as_usual(),
+        Some(comparison) if whole => Some(compared(comparison)?),
+        None if whole => as_usual(),
+        _ => None,
+    };
+    let derive = || {
+        let (model, values) = (&definition.model, &choices[0].values);
+        LetterDerivation::derive(model, values, &point.at, &point.input, &point.output)
     };
     Ok(OperatingPointReference {
         id: point.id.clone(),
@@ -123,13 +142,8 @@ fn operating_point_reference(
         output_unit: point.output_unit.clone(),
         tangent: tangent_reference(definition, point, &choices[0], &accepted[0])?,
         accepted,
-        letters: LetterDerivation::derive(
-            &definition.model,
-            &choices[0].values,
-            &point.at,
-            &point.input,
-            &point.output,
-        ),
+        // Without letters nobody looks at why there are none.
+        letters: if whole { derive() } else { Err(LettersError::OverBudget) },
         comparison,
     })
 }

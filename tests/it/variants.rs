@@ -346,3 +346,38 @@ fn everyone_gets_a_sheet_and_an_answer_file() {
     class.run(&["handout", "--out", "common"], 0);
     assert!(class.read("common/handout.html").contains("Linearization of nonlinear systems"));
 }
+
+#[test]
+fn every_variant_is_proven() {
+    let class = Class::new();
+    let told = class.run(&["verify", LAB], 0);
+    let told: String = told.split_whitespace().collect::<Vec<_>>().join(" ");
+    for words in [
+        "variants: solvable: all 60 have right answers",
+        "variants: equally hard: the same orders",
+        "variants: different: 60 different sets",
+        "variants: mistakes told apart: in 24 of 60, evenly spread, at least",
+        "variants: answers are one's own: computed answers of 6 variants earn",
+    ] {
+        assert!(told.contains(words), "{words}: {told}");
+    }
+}
+
+#[test]
+fn a_variant_of_another_kind_is_named() {
+    let class = Class::new();
+    let text = std::fs::read_to_string(LAB).expect("read");
+    // So much friction that nothing swings any more.
+    let text = text.replace("varies: [0.04, 0.06, 0.08]", "varies: [0.04, 5]");
+    std::fs::write(class.path("lab.yaml"), text).expect("written");
+    let told = class.run(&["verify", "lab.yaml"], 1);
+    let told: String = told.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        told.contains("FAIL variants: equally hard: 20 of 40 are not like the lab's own, such as m = 0.4"),
+        "{told}"
+    );
+    assert!(
+        told.contains("b = 5: pendulum.down:") && told.contains("2 real and 0 complex poles, not"),
+        "{told}"
+    );
+}
