@@ -47,7 +47,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     };
     if written.left_alone > 0 {
         text.push_str(&format!(
-            "{} that were there already are left as they are\n",
+            "{} left alone, with something in it already\n",
             counted(written.left_alone, "answer file")
         ));
     }
