@@ -220,6 +220,8 @@ pub fn value(features: &Features, kind: FeatureKind) -> Option<f64> {
         },
         FeatureKind::Peak => features.peak.as_ref().map(|peak| peak.value),
         FeatureKind::PeakTimeS => features.peak.as_ref().map(|peak| peak.time_s),
+        // No feature of a response.
+        FeatureKind::DcGain => None,
         FeatureKind::PeriodS => features.period_s,
         FeatureKind::DampingRatio => features.damping_ratio,
         FeatureKind::NaturalFrequencyRadS => features.natural_frequency_rad_s,

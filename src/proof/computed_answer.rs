@@ -1,6 +1,6 @@
 use crate::algebra::{Polynomial, significant, to_f64};
 use crate::grading::other_variant::value;
-use crate::lab::{Check, Criterion, Curve, LabDefinition};
+use crate::lab::{Check, Criterion, Curve, FeatureKind, LabDefinition};
 use crate::lti::{InputKind, Limit, Pole};
 use crate::reference::{LinearReference, Reference};
 use crate::submission::{NoFiles, Submission, UnitRatio, read};
@@ -36,8 +36,8 @@ pub(super) fn is_computed(lab: &LabDefinition, criterion: &Criterion) -> bool {
         | Check::Denominator { .. }
         | Check::Poles { .. }
         | Check::Stability { .. }
-        | Check::Feature { .. }
         | Check::Shape { .. } => true,
+        Check::Feature { feature, .. } => feature.kind != FeatureKind::DcGain,
         Check::Plot { data, curve, .. } => data.is_some() && matches!(curve, Curve::Response { .. }),
         _ => false,
     };
