@@ -1,11 +1,14 @@
-//! The command line: new · handout · check · grade · verify · reference. Alone prints, reads the environment, ends the process.
+//! The command line: labs · new · handout · check · grade · verify · reference · schema. Alone prints, reads the environment,
+//! ends the process.
 
 mod check;
 mod grade;
 mod handout;
+mod labs;
 mod new;
 mod outcome;
 mod reference;
+mod scaffold;
 mod schema;
 mod verify;
 
@@ -22,6 +25,7 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Verb {
+    Labs(labs::Arguments),
     New(new::Arguments),
     Check(check::Arguments),
     Handout(handout::Arguments),
@@ -36,6 +40,7 @@ enum Verb {
 /// Exit code: 0 nobody's fault (a poor mark included), 1 the lab's or submission's, 2 ours or the caller's.
 pub fn main() -> ExitCode {
     let done = match Arguments::parse().verb {
+        Verb::Labs(arguments) => labs::run(&arguments),
         Verb::New(arguments) => new::run(&arguments),
         Verb::Check(arguments) => check::run(&arguments),
         Verb::Handout(arguments) => handout::run(&arguments),

@@ -1,6 +1,7 @@
 //! What a lab need not say. `docs/lab-file.md` lists these under *What may be left out*.
 
 use super::{Check, Cover, CoverRow, CoverSource, Curve, FeatureKind, LineForm, Points};
+use crate::english::capitalized;
 use crate::lti::InputKind;
 use crate::submission::FieldKind;
 
@@ -8,11 +9,6 @@ use crate::submission::FieldKind;
 pub(super) fn in_words(id: &str) -> String {
     let words = id.replace('.', ": ").replace(['_', '-'], " ");
     capitalized(&words)
-}
-
-fn capitalized(words: &str) -> String {
-    let mut rest = words.chars();
-    rest.next().map_or_else(String::new, |first| first.to_uppercase().chain(rest).collect())
 }
 
 /// A title as typed, or else the id in words.

@@ -1,5 +1,6 @@
 //! What is asked: the lab file, checked, as a [`LabDefinition`].
 
+mod answers_schema;
 mod check;
 mod defaults;
 mod definition;
@@ -14,6 +15,7 @@ mod names;
 mod points;
 mod read;
 mod schema;
+mod schema_markdown;
 mod sheet;
 mod shelf;
 mod spanned;
@@ -27,4 +29,5 @@ pub use load::{DEFAULT, embedded, load};
 pub use mistakes::{MistakesRule, WithoutEffect, mistake_codes};
 pub use points::Points;
 pub use schema::lab_schema;
+pub use schema_markdown::lab_reference;
 pub use variants::{MOST_VARIANTS, Variant, VariantRule, VariedParameter, folded_id};

@@ -14,15 +14,8 @@ pub(super) fn mistakes_are_told_apart(lab: &LabDefinition, reference: &Reference
     let mut checks = Vec::new();
     let mut needed = vec![false; lab.mistakes.without_effect.len()];
     for model in &lab.models {
-        let asked = model.operating_points.iter().filter(|point| is_asked(lab, model, point));
-        let led: Vec<_> = asked
-            .map(|point| (point, Led::new(lab, model, point, &right_functions(reference, model, point))))
-            .collect();
-        let told: BTreeSet<&str> = led
-            .iter()
-            .flat_map(|(_, led)| led.groups.iter().flatten().chain(&led.none))
-            .map(|mistake| mistake.change.as_str())
-            .collect();
+        let led = Led::of(lab, reference, model);
+        let told = told(&led);
         for (point, led) in &led {
             for (needed, entry) in needed.iter_mut().zip(&lab.mistakes.without_effect) {
                 *needed |= led.nowhere.iter().any(|mistake| entry.covers(mistake, &model.model));
@@ -48,15 +41,8 @@ pub(super) fn mistakes_are_told_apart(lab: &LabDefinition, reference: &Reference
 pub(super) fn wrong_functions(lab: &LabDefinition, reference: &Reference) -> Result<usize, String> {
     let mut count = 0;
     for model in &lab.models {
-        let asked = model.operating_points.iter().filter(|point| is_asked(lab, model, point));
-        let led: Vec<_> = asked
-            .map(|point| (point, Led::new(lab, model, point, &right_functions(reference, model, point))))
-            .collect();
-        let told: BTreeSet<&str> = led
-            .iter()
-            .flat_map(|(_, led)| led.groups.iter().flatten().chain(&led.none))
-            .map(|mistake| mistake.change.as_str())
-            .collect();
+        let led = Led::of(lab, reference, model);
+        let told = told(&led);
         for (point, led) in &led {
             let check = led.beside_the_truth(lab, model, point, &told);
             if !check.holds {
@@ -66,6 +52,28 @@ pub(super) fn wrong_functions(lab: &LabDefinition, reference: &Reference) -> Res
         }
     }
     Ok(count)
+}
+
+/// The changes that [`mistakes_are_told_apart`] finds undeclared, each once.
+pub(super) fn undeclared(lab: &LabDefinition, reference: &Reference) -> Vec<String> {
+    let mut changes: Vec<String> = Vec::new();
+    for (model, led) in lab.models.iter().map(|model| (model, Led::of(lab, reference, model))) {
+        let told = told(&led);
+        for (_, led) in &led {
+            for mistake in led.undeclared(lab, model, &told) {
+                if !changes.contains(&mistake.change) {
+                    changes.push(mistake.change.clone());
+                }
+            }
+        }
+    }
+    changes
+}
+
+/// The mistakes that show at one of these points.
+fn told<'a>(led: &'a [(&OperatingPointDefinition, Led)]) -> BTreeSet<&'a str> {
+    let shown = led.iter().flat_map(|(_, led)| led.groups.iter().flatten().chain(&led.none));
+    shown.map(|mistake| mistake.change.as_str()).collect()
 }
 
 /// Where mistakes lead.
@@ -79,6 +87,18 @@ struct Led {
 }
 
 impl Led {
+    /// At each point of a model whose transfer function is asked for.
+    fn of<'a>(
+        lab: &LabDefinition,
+        reference: &Reference,
+        model: &'a ModelDefinition,
+    ) -> Vec<(&'a OperatingPointDefinition, Self)> {
+        let asked = model.operating_points.iter().filter(|point| is_asked(lab, model, point));
+        asked
+            .map(|point| (point, Self::new(lab, model, point, &right_functions(reference, model, point))))
+            .collect()
+    }
+
     fn new(
         lab: &LabDefinition,
         model: &ModelDefinition,
@@ -132,6 +152,20 @@ impl Led {
         }
     }
 
+    /// Mistakes that are not declared and show nowhere.
+    fn undeclared(
+        &self,
+        lab: &LabDefinition,
+        model: &ModelDefinition,
+        told: &BTreeSet<&str>,
+    ) -> Vec<Mistake> {
+        let nowhere = self.nowhere.iter();
+        nowhere
+            .filter(|mistake| !declared(lab, model, mistake) && !told.contains(mistake.change.as_str()))
+            .cloned()
+            .collect()
+    }
+
     fn beside_the_truth(
         &self,
         lab: &LabDefinition,
@@ -139,19 +173,10 @@ impl Led {
         point: &OperatingPointDefinition,
         told: &BTreeSet<&str>,
     ) -> Check {
-        let declared = |mistake: &&Mistake| {
-            // A linear model is given as it is, hidden states included: there a term without effect is no mistyped equation.
-            model.linear.is_some()
-                || lab.mistakes.without_effect.iter().any(|entry| entry.covers(mistake, &model.model))
-        };
         let elsewhere = |mistake: &&Mistake| told.contains(mistake.change.as_str());
-        let undeclared: Vec<Mistake> = self
-            .nowhere
-            .iter()
-            .filter(|mistake| !declared(mistake) && !elsewhere(mistake))
-            .cloned()
-            .collect();
-        let told_elsewhere = self.nowhere.iter().filter(|mistake| !declared(mistake) && elsewhere(mistake));
+        let undeclared = self.undeclared(lab, model, told);
+        let told_elsewhere =
+            self.nowhere.iter().filter(|mistake| !declared(lab, model, mistake) && elsewhere(mistake));
         Check {
             what: format!("mistakes without effect at {}.{}", model.id, point.id),
             found: match (undeclared.as_slice(), self.nowhere.len()) {
@@ -173,6 +198,12 @@ impl Led {
             span: (!undeclared.is_empty()).then_some(point.span),
         }
     }
+}
+
+fn declared(lab: &LabDefinition, model: &ModelDefinition, mistake: &Mistake) -> bool {
+    // A linear model is given as it is, hidden states included: there a term without effect is no mistyped equation.
+    model.linear.is_some()
+        || lab.mistakes.without_effect.iter().any(|entry| entry.covers(mistake, &model.model))
 }
 
 fn changes(mistakes: &[Mistake]) -> Vec<String> {

@@ -2,8 +2,11 @@
 //! a blank nothing.
 
 mod computed_answer;
+mod missing;
 mod mistakes;
 mod variants;
+
+pub use missing::{Missing, missing, to_paste};
 
 use crate::grading::{Catalogue, ItemScore, Verdict, grade};
 use crate::lab::{LabDefinition, Points};
@@ -56,14 +59,12 @@ fn points_add_up(lab: &LabDefinition) -> Check {
 
 fn stated_values(lab: &LabDefinition, reference: &Reference) -> Vec<Check> {
     let disagreements = check_expectations(reference, &lab.expectations);
-    if disagreements.is_empty() {
+    // That there are none is said with what is missing.
+    if disagreements.is_empty() && !lab.expectations.is_empty() {
         return vec![Check {
             what: "stated values".to_owned(),
-            found: match lab.expectations.len() {
-                0 => "there are none under `expect`, so nothing would notice a mistyped parameter".to_owned(),
-                n => format!("agree with the computed reference at {n} places"),
-            },
-            holds: !lab.expectations.is_empty(),
+            found: format!("agree with the computed reference at {} places", lab.expectations.len()),
+            holds: true,
             span: None,
         }];
     }
@@ -115,7 +116,9 @@ fn model_answer_reads(lab: &LabDefinition) -> Check {
 
 fn model_answer_earns_everything(lab: &LabDefinition, reference: &Reference) -> Vec<Check> {
     let card = grade(lab, reference, &Catalogue::default(), &lab.model_answer, None);
-    let items: Vec<&ItemScore> = card.questions.iter().flat_map(|q| &q.items).collect();
+    let items = card.questions.iter().flat_map(|q| &q.items);
+    // What the model answer leaves out is said with what is missing.
+    let (blank, items): (Vec<&ItemScore>, Vec<_>) = items.partition(|item| item.verdict == Verdict::Blank);
     let spans: BTreeMap<&str, _> =
         lab.questions.iter().flat_map(|q| &q.criteria).map(|c| (c.id.as_str(), c.span)).collect();
     let lost: Vec<Check> = items
@@ -134,17 +137,13 @@ fn model_answer_earns_everything(lab: &LabDefinition, reference: &Reference) -> 
     if !lost.is_empty() {
         return lost;
     }
-    vec![Check {
-        what: "model answer".to_owned(),
-        found: format!(
-            "earns {} of {}, so each of the {} criteria can be reached",
-            card.total.earned,
-            card.total.possible,
-            items.len()
-        ),
-        holds: card.total.earned == card.total.possible,
-        span: None,
-    }]
+    let left_out: Points = blank.iter().map(|item| item.possible).sum();
+    let (earned, possible) = (card.total.earned, card.total.possible);
+    let found = match blank.len() {
+        0 => format!("earns {earned} of {possible}, so each of the {} criteria can be reached", items.len()),
+        n => format!("earns {earned} of {possible}, and leaves {n} criteria worth {left_out} unanswered"),
+    };
+    vec![Check { what: "model answer".to_owned(), found, holds: earned + left_out == possible, span: None }]
 }
 
 fn blank_earns_nothing(lab: &LabDefinition, reference: &Reference) -> Check {

@@ -1,6 +1,7 @@
 //! Whole runs: the program and the library over files as people hand them in.
 
 mod alike;
+mod authoring;
 mod bench;
 mod claims;
 mod class_marks;
@@ -16,6 +17,7 @@ mod marking_examples;
 mod numbers;
 mod plots;
 mod readme;
+mod schema;
 mod switches;
 mod teacher_marks;
 mod variants;

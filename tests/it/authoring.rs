@@ -1,0 +1,133 @@
+//! An instructor's first hour: a new folder, the guide's own example, and what is said when something is missing.
+
+use std::path::Path;
+use std::process::Command;
+
+/// Exit code and standard output of the program, run in a folder.
+fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_polemark"))
+        .args(arguments)
+        .current_dir(folder)
+        .env("NO_COLOR", "1")
+        .output()
+        .expect("the program starts");
+    let text = [output.stdout, output.stderr].concat();
+    (output.status.code(), String::from_utf8(text).expect("UTF-8"))
+}
+
+/// A lab is proven, its template reads as blank, and its own model answers, handed in, earn full marks.
+#[track_caller]
+fn works(folder: &Path, lab: &str, points: &str) {
+    let (code, verified) = run(folder, &["verify", lab, "--strict"]);
+    assert_eq!(code, Some(0), "{verified}");
+    assert!(verified.contains(": proven, "), "{verified}");
+    let (code, template) = run(folder, &["new", lab, "--out", "template.yaml"]);
+    assert_eq!(code, Some(0), "{template}");
+    let (code, checked) = run(folder, &["check", "template.yaml", "--lab", lab]);
+    assert_eq!(code, Some(0), "{checked}");
+    let (code, marked) = run(folder, &["grade", "template.yaml", "--lab", lab, "--out", "out"]);
+    assert_eq!(code, Some(0), "{marked}");
+    assert!(marked.contains(&format!("1 submission marked, mean 0.0 of {points} points")), "{marked}");
+}
+
+#[test]
+fn a_new_lab_works_as_it_is() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (code, said) = run(folder.path(), &["new", "--lab", "labs/duffing"]);
+    assert_eq!(
+        (code, said.as_str()),
+        (
+            Some(0),
+            "labs/duffing: lab.yaml, README.md, answers.yaml, lab.schema.json\nNext: polemark verify labs/duffing\n",
+        )
+    );
+    let lab = folder.path().join("labs/duffing");
+    assert!(std::fs::read_to_string(lab.join("lab.yaml")).expect("text").contains("\nlab: duffing\n"));
+    assert!(std::fs::read_to_string(lab.join("answers.yaml")).expect("text").contains("\nlab: duffing\n"));
+    works(&lab, "lab.yaml", "14");
+}
+
+#[test]
+fn a_new_lab_overwrites_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("README.md"), "mine").expect("written");
+    let (code, said) = run(folder.path(), &["new", "--lab", "."]);
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("README.md"), "{said}");
+    let names: Vec<_> = std::fs::read_dir(folder.path()).expect("read").collect();
+    assert_eq!(names.len(), 1);
+    assert_eq!(std::fs::read_to_string(folder.path().join("README.md")).expect("text"), "mine");
+}
+
+#[test]
+fn labs_are_listed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (code, table) = run(folder.path(), &["labs"]);
+    assert_eq!(code, Some(0));
+    let (_, json) = run(folder.path(), &["labs", "--format", "json"]);
+    let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    let rows = json.as_array().expect("a list");
+    assert_eq!(rows.len(), polemark::lab::embedded().len());
+    for (row, (id, _)) in rows.iter().zip(polemark::lab::embedded()) {
+        assert_eq!(row["id"], *id);
+        assert!(table.contains(id), "{table}");
+    }
+    assert_eq!(rows[0]["points"], 45.0);
+}
+
+/// What is missing is no failure, is told with values to check by hand, and with them the lab is proven.
+#[test]
+fn what_is_missing_can_be_pasted() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let whole = include_str!("../../templates/new-lab/lab.yaml");
+    let mut bare = String::new();
+    let mut answer = false;
+    for line in whole.lines().take_while(|line| !line.starts_with("# Values you know")) {
+        answer = line.starts_with("    model_answer:") || answer && line.starts_with("      ");
+        if !answer {
+            bare.push_str(line);
+            bare.push('\n');
+        }
+    }
+    std::fs::write(folder.path().join("lab.yaml"), &bare).expect("written");
+    let (code, said) = run(folder.path(), &["verify", "lab.yaml"]);
+    assert_eq!(code, Some(0), "{said}");
+    assert!(said.contains("TO DO expectations:") && said.contains("TO DO model answers:"), "{said}");
+    assert!(said.contains("it is not proven yet: 2 to do"), "{said}");
+    assert_eq!(run(folder.path(), &["verify", "lab.yaml", "--strict"]).0, Some(1));
+
+    let lines: Vec<&str> = said.lines().skip_while(|line| *line != "questions:").skip(1).collect();
+    let (answers, rest) = lines.split_at(lines.iter().position(|line| *line == "expect:").expect("values"));
+    let mut complete = bare;
+    let mut question = "";
+    for line in answers {
+        if line.starts_with("  ") && !line.starts_with("    ") {
+            question = line;
+        } else {
+            let place = complete.find(&format!("\n{question}\n")).expect("the question") + question.len() + 2;
+            // Lines that belong together are put in one after the other.
+            let after = complete[place..]
+                .split_inclusive('\n')
+                .take_while(|known| known.contains("model_answer") || known.starts_with("      "))
+                .map(str::len)
+                .sum::<usize>();
+            complete.insert_str(place + after, &format!("{line}\n"));
+        }
+    }
+    for line in rest.iter().take_while(|line| !line.is_empty()) {
+        complete.push_str(line);
+        complete.push('\n');
+    }
+    std::fs::write(folder.path().join("lab.yaml"), &complete).expect("written");
+    works(folder.path(), "lab.yaml", "14");
+}
+
+#[test]
+fn nothing_keeps_a_lab_of_the_shelf_from_proof() {
+    for (id, _) in polemark::lab::embedded() {
+        let lab = polemark::lab::load(id).expect("it parses");
+        let to_do: Vec<_> =
+            polemark::proof::missing(&lab).into_iter().filter(|one| one.keeps_from_proof).collect();
+        assert!(to_do.is_empty(), "{id}: {to_do:#?}");
+    }
+}
