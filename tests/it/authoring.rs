@@ -131,3 +131,22 @@ fn nothing_keeps_a_lab_of_the_shelf_from_proof() {
         assert!(to_do.is_empty(), "{id}: {to_do:#?}");
     }
 }
+
+/// The guide's own example, and the way it says to go.
+#[test]
+fn the_guide_works() {
+    const GUIDE: &str = include_str!("../../docs/lab-file.md");
+    let lab = GUIDE.split("```yaml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("an example");
+    assert!(lab.lines().count() <= 30);
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("lab.yaml"), lab).expect("written");
+    works(folder.path(), "lab.yaml", "9");
+    for arguments in [
+        &["reference", "lab.yaml", "--format", "html", "--out", "key.html"][..],
+        &["schema", "lab", "--out", "lab.schema.json"],
+        &["schema", "answers", "lab.yaml"],
+    ] {
+        let (code, said) = run(folder.path(), arguments);
+        assert_eq!(code, Some(0), "{arguments:?}: {said}");
+    }
+}
