@@ -31,22 +31,69 @@ impl Dyadic {
 
     /// Moved by −`step` and rounded to about `bits` significant bits.
     pub fn moved(&self, step: Wide, bits: usize) -> Self {
-        let mut moved = self.minus(&Self::near(step));
-        let length = moved.re.bit_len().max(moved.im.bit_len());
-        if let Some(excess) = length.checked_sub(bits).filter(|&excess| excess > 0) {
-            moved = Self {
-                re: moved.re >> excess,
-                im: moved.im >> excess,
-                exponent: moved.exponent + excess as i64,
-            };
-        }
-        moved
+        self.minus(&Self::near(step)).rounded(bits)
     }
 
     pub fn minus(&self, other: &Self) -> Self {
         let exponent = self.exponent.min(other.exponent);
         let (a, b) = ((self.exponent - exponent) as usize, (other.exponent - exponent) as usize);
         Self { re: (&self.re << a) - (&other.re << b), im: (&self.im << a) - (&other.im << b), exponent }
+    }
+
+    pub fn zero() -> Self {
+        Self { re: IBig::ZERO, im: IBig::ZERO, exponent: 0 }
+    }
+
+    /// A finite number, exactly.
+    pub fn real(value: f64) -> Self {
+        Self::exactly(Complex64::new(value, 0.0))
+    }
+
+    /// Times a finite number, exactly.
+    pub fn scaled(&self, factor: f64) -> Self {
+        self.times(&Self::real(factor))
+    }
+
+    pub fn times(&self, other: &Self) -> Self {
+        Self {
+            re: &self.re * &other.re - &self.im * &other.im,
+            im: &self.re * &other.im + &self.im * &other.re,
+            exponent: self.exponent + other.exponent,
+        }
+    }
+
+    /// To about `bits` significant bits; 0 when divided by 0.
+    pub fn over(&self, other: &Self, bits: usize) -> Self {
+        let size = &other.re * &other.re + &other.im * &other.im;
+        if size.is_zero() {
+            return Self::near(Wide::ZERO);
+        }
+        let above = self.times(&other.conjugate());
+        let length = above.re.bit_len().max(above.im.bit_len());
+        let lift = (bits + size.bit_len()).saturating_sub(length);
+        Self {
+            re: (above.re << lift) / &size,
+            im: (above.im << lift) / &size,
+            exponent: above.exponent - 2 * other.exponent - lift as i64,
+        }
+    }
+
+    /// Without what goes beyond `bits` significant bits of the larger part.
+    pub fn rounded(self, bits: usize) -> Self {
+        let length = self.re.bit_len().max(self.im.bit_len());
+        match length.checked_sub(bits) {
+            None | Some(0) => self,
+            Some(excess) => {
+                Self { re: self.re >> excess, im: self.im >> excess, exponent: self.exponent + excess as i64 }
+            }
+        }
+    }
+
+    /// Both parts as whole multiples of 2^−`fraction_bits`, rounded down.
+    pub fn in_fixed_point(&self, fraction_bits: usize) -> (IBig, IBig) {
+        let shift = self.exponent + fraction_bits as i64;
+        let part = |x: &IBig| if shift >= 0 { x << shift as usize } else { x >> (-shift) as usize };
+        (part(&self.re), part(&self.im))
     }
 
     pub fn conjugate(&self) -> Self {
@@ -91,8 +138,15 @@ impl Dyadic {
 /// a value is zero only when it is exactly zero.
 /// Source: repeated synthetic division with everything multiplied by a power of two.
 pub(super) fn taylor(p: &[IBig], z: &Dyadic, count: usize) -> Vec<Wide> {
+    let mut values: Vec<Wide> = exact_taylor(p, z, count).iter().map(Dyadic::to_wide).collect();
+    values.resize(count, Wide::ZERO);
+    values
+}
+
+/// The same without any rounding; fewer than `count` where the degree ends.
+pub(super) fn exact_taylor(p: &[IBig], z: &Dyadic, count: usize) -> Vec<Dyadic> {
     let Some(n) = p.len().checked_sub(1) else {
-        return vec![Wide::ZERO; count];
+        return Vec::new();
     };
     let (lift, down) = (z.exponent.max(0) as usize, (-z.exponent).max(0) as usize);
     let (a, b) = (&z.re << lift, &z.im << lift);
@@ -112,9 +166,9 @@ pub(super) fn taylor(p: &[IBig], z: &Dyadic, count: usize) -> Vec<Wide> {
                 im[j] += step_im;
             }
         }
-        values.push(wide(&re[n - k], &im[n - k], -((down * (n - k)) as i64)));
+        let (re, im) = (re[n - k].clone(), im[n - k].clone());
+        values.push(Dyadic { re, im, exponent: -((down * (n - k)) as i64) });
     }
-    values.resize(count, Wide::ZERO);
     values
 }
 

@@ -76,8 +76,11 @@ impl<'a> ExtremumScan<'a> {
 
     /// Whether no extremum is left, or none that can be found within the steps allowed.
     pub fn finished(&self) -> bool {
-        self.pending.is_none()
-            && (self.gave_up() || self.tail.is_some_and(|tail| tail.is_monotone(self.response, self.at.t)))
+        let nothing_left = || match self.response.pieces() {
+            Some(pieces) => self.at.t >= pieces.end(),
+            None => self.tail.is_some_and(|tail| tail.is_monotone(self.response, self.at.t)),
+        };
+        self.pending.is_none() && (self.gave_up() || nothing_left())
     }
 
     /// Whether the steps allowed are used up.
@@ -143,6 +146,11 @@ impl Tail {
 impl Point {
     fn new(response: &Response, t: f64, shortest_step: f64) -> Self {
         let [_, rate, curvature] = response.jet(t);
+        if let Some(pieces) = response.pieces() {
+            let (step, rounding) = pieces.step_and_rounding(t);
+            let sign = if rate.abs() <= rounding { 0.0 } else { rate.signum() };
+            return Self { t, curvature, sign, step };
+        }
         let steepness = |mode: &Mode| {
             let within = t.max(shortest_step);
             mode.envelope(within) * (mode.speed() + mode.power as f64 / within)

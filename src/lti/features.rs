@@ -289,11 +289,18 @@ impl<'a> Outlook<'a> {
     }
 }
 
+/// A pair that decays by this in every radian has died before it swings back: e^(−10π) is 2e-14.
+const DEAD_BEFORE_IT_SWINGS: f64 = 10.0;
+
 /// Whether a decaying response ends in the oscillation of a pair that has at least 1 % of the largest amplitude.
 fn leads_visibly(leader: &Mode, response: &Response) -> bool {
+    if leader.is_real() || -leader.re > DEAD_BEFORE_IT_SWINGS * leader.im {
+        return false;
+    }
     let largest =
         response.present().filter(|mode| !mode.is_constant()).map(Mode::amplitude).fold(0.0, f64::max);
-    !leader.is_real() && leader.amplitude() >= 0.01 * largest
+    let largest = response.pieces().map_or(largest, |pieces| pieces.highest().min(largest));
+    leader.amplitude() >= 0.01 * largest
 }
 
 /// Whether a pair makes the curve go up and down by at least 5 % of its range, twice in a row.

@@ -33,6 +33,9 @@ pub(super) fn horizon_s(response: &Response) -> f64 {
 fn growth_time(response: &Response) -> f64 {
     let growing = || response.modes().iter().filter(|mode| mode.re > 0.0);
     let fastest = growing().map(|mode| mode.re).fold(0.0, f64::max);
+    if response.pieces().is_some() {
+        return seen_to_grow(response, 1.0 / fastest);
+    }
     let start = response
         .moving_envelope(0.0)
         .max(growing().map(|mode| mode.envelope(1.0 / fastest) / std::f64::consts::E).sum());
@@ -45,6 +48,17 @@ fn growth_time(response: &Response) -> f64 {
     for _ in 0..20 {
         let middle = 0.5 * (begin + end);
         if short_of(middle) { begin = middle } else { end = middle }
+    }
+    end
+}
+
+/// The same from the curve itself, for terms that cancel: a hundred times its height within one time constant.
+fn seen_to_grow(response: &Response, time_constant: f64) -> f64 {
+    let height = |t: f64| (0..=20).map(|k| response.at(t * f64::from(k) / 20.0).abs()).fold(0.0, f64::max);
+    let start = height(time_constant);
+    let mut end = time_constant;
+    while height(end) < 100.0 * start && end < 50.0 * time_constant {
+        end *= 1.2;
     }
     end
 }

@@ -1,5 +1,5 @@
 use super::dyadic::{Dyadic, taylor};
-use super::simple_roots::{Disc, simple_roots};
+use super::simple_roots::{Disc, PRECISION_BITS, simple_roots};
 use crate::algebra::{Polynomial, Rational};
 use dashu_int::IBig;
 use num_complex::Complex64;
@@ -57,6 +57,11 @@ pub(super) struct IsolatedRoot {
 
 /// As [`roots`], without the lower half-plane.
 pub(super) fn isolated_roots(p: &Polynomial) -> Result<Vec<IsolatedRoot>, RootError> {
+    isolated_roots_to(p, PRECISION_BITS)
+}
+
+/// The same, the centers to within 2^−`precision_bits` of each part.
+pub(super) fn isolated_roots_to(p: &Polynomial, precision_bits: i64) -> Result<Vec<IsolatedRoot>, RootError> {
     if p.is_zero() {
         return Err(RootError::ZeroPolynomial);
     }
@@ -77,7 +82,7 @@ pub(super) fn isolated_roots(p: &Polynomial) -> Result<Vec<IsolatedRoot>, RootEr
         for (part, even) in [(factor.exact_quotient(&symmetric), false), (symmetric, true)] {
             if part.degree() > 0 {
                 let coefficients = part.primitive();
-                for disc in simple_roots(&coefficients, even)? {
+                for disc in simple_roots(&coefficients, even, precision_bits)? {
                     let pole = rounded(&disc, multiplicity, &coefficients)?;
                     found.push(IsolatedRoot { center: disc.center, pole });
                 }

@@ -1,10 +1,13 @@
 use super::dyadic::taylor;
 use super::extrema::ExtremumScan;
+use super::many_digits::many_digits;
+use super::pieces::Pieces;
 use super::poles::isolated_roots;
 use super::wide::Wide;
-use super::{RootError, TransferFunction, horizon, sampling};
+use super::{Pole, RootError, TransferFunction, horizon, sampling};
 use crate::algebra::{Polynomial, to_f64};
 use num_complex::Complex64;
+use std::sync::Arc;
 
 /// What the system is driven with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -23,6 +26,10 @@ pub enum ResponseError {
     Improper { num: usize, den: usize },
     #[error("the response is too large or too small for floating-point numbers")]
     OutOfRange,
+    #[error(
+        "the poles {first} and {second} lie so close together that the response takes more digits than can be waited for"
+    )]
+    TooClose { first: String, second: String },
     #[error(transparent)]
     Roots(#[from] RootError),
 }
@@ -80,6 +87,11 @@ impl Mode {
         }
     }
 
+    /// How large the contribution is while the fastest term, of `speed` rad/s, turns once.
+    pub(super) fn early_bound(&self, speed: f64) -> f64 {
+        self.envelope(1.0 / speed)
+    }
+
     /// |c|, twice for a pair.
     pub(super) fn amplitude(&self) -> f64 {
         let size = self.coefficient_re.hypot(self.coefficient_im);
@@ -107,8 +119,10 @@ impl Mode {
 
 /// A response in closed form: a sum of tᵏ e^{pt} terms from the partial fractions of G(s) or G(s)/s.
 ///
-/// Accuracy: about 1e-15 of the sum of the terms' envelopes at that time; multiple poles cost nothing, but simple poles
-/// that nearly coincide (to d, relative) have envelopes 1/d times larger than the response.
+/// Accuracy: about 1e-15 of the sum of the terms' envelopes at that time; multiple poles cost nothing. Poles that nearly
+/// coincide, and many in a row, have terms far larger than the response, which cancel. Where that would cost more than
+/// four digits the terms are summed with as many digits as it takes, once, and the curve is kept as polynomials: 1e-13
+/// of the largest value near that time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Response {
     pub kind: InputKind,
@@ -117,7 +131,16 @@ pub struct Response {
     /// y(0⁺) by the initial value theorem, from exact coefficients: a sum of modes would leave a rounding error for 0.
     initial: f64,
     modes: Vec<Mode>,
+    /// The curve itself, where the modes cancel.
+    pieces: Option<Arc<Pieces>>,
 }
+
+/// Modes larger than the response by this have lost too many digits.
+const MOST_CANCELLED: f64 = 1e4;
+/// Poles this close, of their size, are taken to coincide.
+const MEETING: f64 = 1e-7;
+/// Instants at which that is looked at.
+const LOOKS: u32 = 60;
 
 impl Response {
     /// Common factors of numerator and denominator are cancelled exactly first, so that a pole-zero pair leaves no trace.
@@ -141,12 +164,39 @@ impl Response {
             }
         };
         let initial = initial_value(&driven);
-        let modes = if driven.num.is_zero() { Vec::new() } else { partial_fractions(&driven)? };
+        let (modes, poles) =
+            if driven.num.is_zero() { Default::default() } else { partial_fractions(&driven)? };
         let finite = |m: &Mode| m.coefficient_re.is_finite() && m.coefficient_im.is_finite();
         if !delta.is_finite() || !initial.is_finite() || !modes.iter().all(finite) {
             return Err(ResponseError::OutOfRange);
         }
-        Ok(Self { kind, delta, initial, modes })
+        let plain = Self { kind, delta, initial, modes, pieces: None };
+        if !meet(&poles) && plain.cancelled() <= MOST_CANCELLED {
+            return Ok(plain);
+        }
+        let pieces = Some(Arc::new(many_digits(&driven, &plain.modes, &poles)?));
+        Ok(Self { pieces, ..plain })
+    }
+
+    /// How much larger the sum of the terms' envelopes is than the response, at worst.
+    fn cancelled(&self) -> f64 {
+        let speeds = || self.modes.iter().map(Mode::speed).filter(|speed| *speed > 0.0);
+        let (fastest, slowest) = (speeds().fold(0.0, f64::max), speeds().fold(f64::INFINITY, f64::min));
+        if fastest == 0.0 {
+            return 1.0;
+        }
+        let (first, last) = (0.1 / fastest, 10.0 / slowest);
+        let (mut worst, mut highest): (f64, f64) = (1.0, f64::MIN_POSITIVE);
+        for k in 0..=LOOKS {
+            let t = first * (last / first).powf(f64::from(k) / f64::from(LOOKS));
+            highest = highest.max(self.at(t).abs());
+            worst = worst.max(self.modes.iter().map(|mode| mode.envelope(t)).sum::<f64>() / highest);
+        }
+        worst
+    }
+
+    pub(super) fn pieces(&self) -> Option<&Pieces> {
+        self.pieces.as_deref()
     }
 
     /// The terms, those of the rightmost poles first, the highest power of a pole first; none for the zero response.
@@ -188,6 +238,9 @@ impl Response {
 
     /// Value, rate and curvature at t.
     pub(super) fn jet(&self, t: f64) -> [f64; 3] {
+        if let Some(jet) = self.pieces().and_then(|pieces| pieces.jet(t)) {
+            return jet;
+        }
         self.modes.iter().fold([0.0; 3], |sum, mode| {
             let jet = mode.jet(t);
             [sum[0] + jet[0], sum[1] + jet[1], sum[2] + jet[2]]
@@ -211,11 +264,17 @@ impl Response {
 
     /// The largest |y − constant| can be at t.
     pub(super) fn moving_envelope(&self, t: f64) -> f64 {
+        if let Some(pieces) = self.pieces() {
+            return pieces.bound_from(t);
+        }
         self.moving().map(|mode| mode.envelope(t)).sum()
     }
 
     /// The largest |y − constant| can be from t on.
     pub(super) fn moving_bound_from(&self, t: f64) -> f64 {
+        if let Some(pieces) = self.pieces() {
+            return pieces.bound_from(t);
+        }
         self.moving().map(|mode| mode.bound_from(t)).sum()
     }
 
@@ -224,19 +283,33 @@ impl Response {
     pub(super) fn present(&self) -> impl Iterator<Item = &Mode> + Clone {
         let height = |mode: &Mode| mode.bound_from(0.0);
         let lasting = |mode: &Mode| mode.re >= 0.0;
-        let highest = self.modes.iter().filter(|mode| !lasting(mode)).map(height).fold(0.0, f64::max);
+        let largest = self.modes.iter().filter(|mode| !lasting(mode)).map(height).fold(0.0, f64::max);
+        let highest = self.pieces().map_or(largest, Pieces::highest);
         self.modes.iter().filter(move |mode| lasting(mode) || height(mode) >= 1e-9 * highest)
     }
 }
 
+/// Whether two poles nearly coincide, so that not even the coefficients have all their digits.
+fn meet(poles: &[Pole]) -> bool {
+    let near = |a: &Pole, b: &Pole| {
+        (a.re - b.re).hypot(a.im - b.im) <= MEETING * a.re.hypot(a.im).max(b.re.hypot(b.im))
+    };
+    poles.iter().enumerate().any(|(i, a)| poles[..i].iter().any(|b| near(a, b)))
+}
+
 /// The terms of `g`, strictly proper and in lowest terms.
-fn partial_fractions(g: &TransferFunction) -> Result<Vec<Mode>, ResponseError> {
+fn partial_fractions(g: &TransferFunction) -> Result<(Vec<Mode>, Vec<Pole>), ResponseError> {
     // Both over one common denominator, so that their quotient stays what it is.
     let both = [g.den.coefficients(), g.num.coefficients()].concat();
     let integers = Polynomial::new(both).primitive();
     let (den, num) = integers.split_at(g.den.degree() + 1);
     let mut modes = Vec::with_capacity(g.den.degree());
+    let mut poles = Vec::with_capacity(g.den.degree());
     for root in isolated_roots(&g.den)? {
+        poles.push(root.pole);
+        if root.pole.im != 0.0 {
+            poles.push(Pole { im: -root.pole.im, ..root.pole });
+        }
         let m = root.pole.multiplicity;
         let above = taylor(num, &root.center, m);
         let below = taylor(den, &root.center, 2 * m);
@@ -249,7 +322,7 @@ fn partial_fractions(g: &TransferFunction) -> Result<Vec<Mode>, ResponseError> {
             }
         }
     }
-    Ok(modes)
+    Ok((modes, poles))
 }
 
 /// The power series `above` / `below`; what is only rounding is zero.

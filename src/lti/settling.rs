@@ -29,6 +29,9 @@ pub(super) fn largest_excursion(response: &Response, level: f64, enough_s: f64) 
 
 /// When the envelope of a decaying response has fallen to `band` for good.
 pub(super) fn envelope_time(response: &Response, band: f64) -> f64 {
+    if let Some(pieces) = response.pieces() {
+        return pieces.within(band);
+    }
     let decay = |mode: &super::Mode| -mode.re;
     // From here on every envelope falls.
     let falling = response.moving().map(|mode| mode.power as f64 / decay(mode)).fold(0.0, f64::max);

@@ -18,8 +18,8 @@ pub(super) struct Disc {
 
 /// Rounding in the radii (about 200 units of 2⁻⁵²) is covered by this much more.
 const ROUNDING: f64 = 1.0 + 1e-10;
-/// Radii wanted, relative to each part of the root: 2⁻⁶⁰.
-const PRECISION_BITS: i64 = 60;
+/// Radii wanted as a rule, relative to each part of the root: 2⁻⁶⁰.
+pub(super) const PRECISION_BITS: i64 = 60;
 const FIRST_BITS: usize = 128;
 const MOST_BITS: usize = 4096;
 const FLOAT_SWEEPS: usize = 80;
@@ -35,7 +35,8 @@ const EXACT_SWEEPS: usize = 400;
 /// Source: Ehrlich–Aberth iteration from Newton-polygon starting points (Bini, *Numer. Algorithms* 13, 1996), first in
 /// floating point, then on exact values; clusters, where it gains a bit a sweep, by their own Taylor series; Smith,
 /// *J. ACM* 17, 1970.
-pub(super) fn simple_roots(p: &[IBig], even: bool) -> Result<Vec<Disc>, RootError> {
+/// `precision_bits`: the radius is less than 2^−`precision_bits` of each part of the root.
+pub(super) fn simple_roots(p: &[IBig], even: bool, precision_bits: i64) -> Result<Vec<Disc>, RootError> {
     let mut points: Vec<Dyadic> = float_roots(&in_floating_point(p)).into_iter().map(Dyadic::near).collect();
     let mut values: Vec<Vec<Wide>> = points.iter().map(|z| taylor(p, z, 2)).collect();
     let mut bits = FIRST_BITS;
@@ -46,7 +47,7 @@ pub(super) fn simple_roots(p: &[IBig], even: bool) -> Result<Vec<Disc>, RootErro
         let discs: Vec<Option<Disc>> =
             (0..points.len()).map(|i| disc(p, i, &points[i], values[i][0], &differences[i])).collect();
         let settled: Vec<Option<Disc>> =
-            (0..points.len()).map(|i| settled(i, &discs, &differences, even)).collect();
+            (0..points.len()).map(|i| settled(i, &discs, &differences, even, precision_bits)).collect();
         if let Some(all) = settled.iter().cloned().collect::<Option<Vec<Disc>>>() {
             return Ok(all.into_iter().filter(|disc| disc.center.im().mantissa().re >= 0.0).collect());
         }
@@ -275,7 +276,13 @@ fn disc(p: &[IBig], own: usize, z: &Dyadic, value: Wide, differences: &[Wide]) -
 }
 
 /// A disc that is small, apart from all others, and known to be on an axis (then so is its center) or off it.
-fn settled(i: usize, discs: &[Option<Disc>], differences: &[Vec<Wide>], even: bool) -> Option<Disc> {
+fn settled(
+    i: usize,
+    discs: &[Option<Disc>],
+    differences: &[Vec<Wide>],
+    even: bool,
+    precision_bits: i64,
+) -> Option<Disc> {
     let disc = discs[i].as_ref()?;
     // Whether a distance keeps this disc apart from another; never from one not known yet.
     let clear = |distance: Wide, j: usize| {
@@ -292,7 +299,7 @@ fn settled(i: usize, discs: &[Option<Disc>], differences: &[Vec<Wide>], even: bo
             .all(|j| discs[j].as_ref().is_some_and(|other| clear(mirrored.minus(&other.center).to_wide(), j)))
     };
     let meets = |part: Wide| part.cmp_abs(disc.radius * Wide::real(ROUNDING, 0)) != Ordering::Greater;
-    let small = |part: Wide| disc.radius.cmp_abs(part.shifted(-PRECISION_BITS)) == Ordering::Less;
+    let small = |part: Wide| disc.radius.cmp_abs(part.shifted(-precision_bits)) == Ordering::Less;
     let (re, im) = (disc.center.re(), disc.center.im());
     let onto = |center: Dyadic| Some(Disc { center, radius: disc.radius });
     if meets(im) {

@@ -9,6 +9,7 @@ mod cli;
 mod conflicts;
 mod ctms;
 mod hard_polynomials;
+mod hard_responses;
 mod hard_table;
 mod held_ball;
 mod laws;
