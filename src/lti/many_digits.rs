@@ -5,7 +5,7 @@ use super::pieces::{NODES, Piece, Pieces, nodes};
 use super::poles::isolated_roots_to;
 use super::wide::ldexp;
 use super::{Mode, Pole, ResponseError, TransferFunction};
-use crate::algebra::{Polynomial, to_f64};
+use crate::algebra::Polynomial;
 use dashu_int::IBig;
 use dashu_int::ops::BitTest;
 
@@ -57,6 +57,9 @@ pub(super) fn many_digits(
     let width = ldexp(1.0, (0.5 / fastest).log2().floor() as i64);
     // How large the response is turns out at the end.
     let mut bits = sum.max(6.0) - sum.min(0.0) + f64::from(DEAD_BITS) + 30.0;
+    // Steps double from the fastest to the slowest, and powers of t magnify what is cut off their coefficients.
+    bits +=
+        (fastest / slowest).log2() + poles.iter().map(|pole| magnified(pole, slowest)).fold(0.0, f64::max);
     loop {
         let precise = bits + sensitive * repeated + (fastest / slowest).log2() + 40.0;
         if precise.is_nan() || precise > MOST_BITS {
@@ -73,6 +76,13 @@ pub(super) fn many_digits(
 
 fn speed(pole: &Pole) -> f64 {
     pole.re.hypot(pole.im)
+}
+
+/// Bits by which t^k outgrows 1 before the response has died, or is no longer looked at.
+fn magnified(pole: &Pole, slowest: f64) -> f64 {
+    let powers = (pole.multiplicity - 1) as f64;
+    let rate = if pole.re == 0.0 { slowest / 5.0 } else { pole.re.abs() };
+    powers * ((60.0 + 3.0 * powers) / rate).log2().max(0.0)
 }
 
 /// The two poles nearest to one another, as a part of their size.
@@ -179,14 +189,16 @@ fn sum_up(mut terms: Vec<Term>, mut width: f64, bits: usize) -> Option<Pieces> {
             .filter(|&i| {
                 let sizes = terms[i].coefficients.iter().enumerate();
                 let length = |c: &Fixed| c.0.bit_len().max(c.1.bit_len()) as i64;
-                sizes.map(|(k, c)| length(c) + k as i64 * late).max().unwrap_or(0) > alive_above
+                // Rounded down, what is nothing is −1.
+                let there = sizes.filter(|(_, c)| length(c) > 1);
+                there.map(|(k, c)| length(c) + k as i64 * late).max().unwrap_or(0) > alive_above
             })
             .collect();
         let done = from >= until && alive.iter().all(|&i| terms[i].pole.re >= 0.0);
         if done && !pieces.is_empty() {
             break;
         }
-        products += NODES * (alive.len() + 1);
+        products += NODES * alive.iter().map(|&i| 1 + terms[i].coefficients.len()).sum::<usize>().max(1);
         if products > MOST_PRODUCTS {
             return None;
         }

@@ -186,11 +186,18 @@ impl Response {
             return 1.0;
         }
         let (first, last) = (0.1 / fastest, 10.0 / slowest);
+        let times = (0..=LOOKS).map(|k| first * (last / first).powf(f64::from(k) / f64::from(LOOKS)));
+        let seen: Vec<(f64, f64, f64)> = times
+            .map(|t| (t, self.at(t).abs(), self.modes.iter().map(|mode| mode.envelope(t)).sum()))
+            .collect();
+        // What decays is measured by its peak, what grows by what it has become.
+        let rightmost = self.moving().map(|mode| mode.re).fold(f64::NEG_INFINITY, f64::max);
+        let early = if rightmost > 0.0 { 1.0 / rightmost } else { f64::INFINITY };
         let (mut worst, mut highest): (f64, f64) = (1.0, f64::MIN_POSITIVE);
-        for k in 0..=LOOKS {
-            let t = first * (last / first).powf(f64::from(k) / f64::from(LOOKS));
-            highest = highest.max(self.at(t).abs());
-            worst = worst.max(self.modes.iter().map(|mode| mode.envelope(t)).sum::<f64>() / highest);
+        highest = seen.iter().filter(|look| look.0 <= early).map(|look| look.1).fold(highest, f64::max);
+        for (_, size, envelope) in seen {
+            highest = highest.max(size);
+            worst = worst.max(envelope / highest);
         }
         worst
     }
