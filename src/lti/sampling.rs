@@ -180,10 +180,9 @@ mod tests {
             let most = stretch.iter().map(|point| point.1.abs()).fold(0.0, f64::max);
             assert!(most > 0.98 * ringing.moving_envelope(stretch[3].0), "{stretch:?}");
         }
-        // Pairs 1e-15 apart: terms so large that their rounding is all there is to see.
+        // Pairs 1e-15 apart, one of which grows: how it grows is seen after 1e15 swings, and nobody waits for that.
         let together = "1 0 2.999999999999999999999999999998 0 3.000000000000000000000000000000000000000000000000000000000001 0 1.000000000000000000000000000002000000000000000000000000000001";
-        let rounding = Response::new(&tf("1", together), Step).unwrap();
-        assert!(samples(&rounding, rounding.horizon_s(), 1e-3).len() <= MOST_POINTS);
+        assert!(Response::new(&tf("1", together), Step).is_err());
         assert_eq!(samples(&ringing, 0.0, 1e-3).len(), 1);
         assert_eq!(samples(&ringing, f64::NAN, 1e-3).len(), 1);
     }
