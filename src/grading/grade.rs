@@ -7,11 +7,14 @@ use super::same_mistake::spare;
 use super::truth::Truth;
 use super::{
     Catalogue, HandMarks, ItemScore, Ledger, Override, QuestionScore, Scorecard, Tally, Verdict, alike,
-    concepts, cover, nonlinearity, plot, poles, shape, stability, tangent, transfer_function, value,
+    concepts, cover, letters, nonlinearity, plot, poles, shape, stability, tangent, transfer_function, value,
 };
 use crate::lab::{Check, Criterion, Curve, LabDefinition, Question, SystemRef};
+use crate::model::LetterDerivation;
 use crate::reference::{Reference, ResponseReference};
-use crate::submission::{Answer, AnswerValue, Figure, Series, Submission, Unreadable};
+use crate::submission::{
+    Answer, AnswerSheet, AnswerValue, AnsweredIn, Figure, Series, Submission, Unreadable,
+};
 
 /// Every mark of one submission, with its evidence, and with `catalogue` what may explain a wrong transfer function.
 ///
@@ -24,7 +27,7 @@ pub fn grade(
     submission: &Submission,
     hand: Option<&HandMarks>,
 ) -> Scorecard {
-    let grader = Grader { reference, catalogue, submission };
+    let grader = Grader { reference, catalogue, submission, sheet: &lab.sheet };
     scorecard(lab, submission, hand, marks(lab, &grader, hand))
 }
 
@@ -141,6 +144,7 @@ pub(super) struct Grader<'a> {
     pub reference: &'a Reference,
     pub(super) catalogue: &'a Catalogue,
     pub submission: &'a Submission,
+    pub sheet: &'a AnswerSheet,
 }
 
 /// What stands in a field.
@@ -197,15 +201,33 @@ impl<'a> Grader<'a> {
         if let Field::Value(answer, AnswerValue::TransferFunction { transfer_function: typed, formula }) =
             self.field(&first.field)
         {
-            let mut marks = transfer_function::judge(criteria, &accepted, typed);
-            let wrong = |mark: &&mut Mark| matches!(mark.verdict, Verdict::Wrong | Verdict::Partly);
+            let numeric = transfer_function::judge(criteria, &accepted, typed);
+            let mut marks = match self.derivation(&first.field, of) {
+                Some(derivation) => letters::judge(criteria, derivation, formula.as_ref(), numeric),
+                None => numeric,
+            };
+            let wrong = |mark: &&mut Mark| {
+                matches!(mark.verdict, Verdict::Wrong | Verdict::Partly)
+                    && mark.code != "letters.numbers_only"
+            };
             if let Some(first) = marks.iter_mut().find(wrong) {
                 first.diagnosis = self.catalogue.diagnose_as_typed(of, typed, &answer.text, formula.as_ref());
             }
             return marks;
         }
-        let expected = |criterion: &Criterion| transfer_function::expected(&criterion.check, &accepted);
+        let derivation = self.derivation(&first.field, of);
+        let expected = |criterion: &Criterion| match derivation {
+            Some(derivation) => letters::expected(&criterion.check, derivation),
+            None => transfer_function::expected(&criterion.check, &accepted),
+        };
         criteria.iter().map(|criterion| self.without_value(criterion, expected(criterion))).collect()
+    }
+
+    /// What a field asked for in letters is held against; `None` where either will do, or letters cannot be derived.
+    fn derivation(&self, field: &str, of: &SystemRef) -> Option<&'a LetterDerivation> {
+        let asked = self.sheet.letters.get(field).map_or(AnsweredIn::Either, |own| own.answered_in);
+        let point = self.reference.operating_point(of).filter(|_| asked == AnsweredIn::Letters)?;
+        point.letters.as_ref().ok().filter(|derivation| derivation.has_letters())
     }
 
     /// The marks of `criteria` on the function typed for `of`, held against what `mistakes` made in the derivation lead to;

@@ -19,6 +19,7 @@ mod grade;
 mod guard;
 mod hand_marks;
 mod ledger;
+mod letters;
 mod likeness;
 mod mark;
 mod nonlinearity;
@@ -77,6 +78,7 @@ mod tests {
             "slip",
             "units",
             "rounding",
+            "letters",
             "variant",
         ];
         source
@@ -101,6 +103,7 @@ mod tests {
             include_str!("digits.rs"),
             include_str!("follow_through.rs"),
             include_str!("hand_marks.rs"),
+            include_str!("letters.rs"),
             include_str!("nonlinearity.rs"),
             include_str!("plot.rs"),
             include_str!("poles/mod.rs"),

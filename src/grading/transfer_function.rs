@@ -38,7 +38,61 @@ pub(super) fn judge(
     accepted: &[Accepted<'_, TransferFunction>],
     typed: &TransferFunction,
 ) -> Vec<Mark> {
-    let mut best: Option<(Points, Reading<'_>)> = None;
+    let best = best_reading(criteria, accepted, typed);
+    let found = typed.to_text(FIGURES);
+    criteria
+        .iter()
+        .map(|criterion| match &best {
+            Some(reading) => reading.mark(criterion, accepted, found.clone()),
+            None => {
+                Mark::unmarked(String::new(), found.clone(), "There is no reference to compare this with.")
+            }
+        })
+        .collect()
+}
+
+/// What a transfer function comes to, coefficient by coefficient.
+pub(super) struct ExactReading {
+    /// Code and points of each criterion.
+    pub scores: Vec<(&'static str, Points)>,
+    /// Whether enough coefficients agree on a common factor for it to mean anything.
+    pub supported: bool,
+    /// Coefficients that are not right: their polynomial, power and what is wrong.
+    pub off: Vec<(Part, usize, Fit)>,
+    /// What is to be said of its form.
+    pub structure: String,
+}
+
+/// Codes and points of all `criteria`, as [`judge`] gives them, without words about numbers.
+pub(super) fn read_exactly(
+    criteria: &[&Criterion],
+    accepted: &[Accepted<'_, TransferFunction>],
+    typed: &TransferFunction,
+) -> Option<ExactReading> {
+    let best = best_reading(criteria, accepted, typed)?;
+    let wrong = best.scaled.coefficients.iter().filter(|coefficient| coefficient.fit != Fit::Right);
+    let structure = match best.structure() {
+        "structure.not_cancelled" => {
+            "Your function is of the right form once what numerator and denominator share is cancelled, but it was left in \
+             both. Half the points are for cancelling it."
+                .to_owned()
+        }
+        code => best.why_structure(code),
+    };
+    Some(ExactReading {
+        scores: criteria.iter().map(|criterion| best.score(criterion)).collect(),
+        supported: best.scaled.supported,
+        off: wrong.map(|coefficient| (coefficient.part, coefficient.power, coefficient.fit)).collect(),
+        structure,
+    })
+}
+
+fn best_reading<'a>(
+    criteria: &[&Criterion],
+    accepted: &[Accepted<'a, TransferFunction>],
+    typed: &TransferFunction,
+) -> Option<Reading<'a>> {
+    let mut best: Option<(Points, Reading<'a>)> = None;
     for reading in readings(criteria, accepted, typed) {
         let points = criteria.iter().map(|criterion| reading.score(criterion).1).sum();
         let rank = |points: Points, reading: &Reading<'_>| {
@@ -51,16 +105,7 @@ pub(super) fn judge(
             best = Some((points, reading));
         }
     }
-    let found = typed.to_text(FIGURES);
-    criteria
-        .iter()
-        .map(|criterion| match &best {
-            Some((_, reading)) => reading.mark(criterion, accepted, found.clone()),
-            None => {
-                Mark::unmarked(String::new(), found.clone(), "There is no reference to compare this with.")
-            }
-        })
-        .collect()
+    best.map(|(_, reading)| reading)
 }
 
 /// One way of seeing the student's transfer function beside one accepted one.
@@ -398,7 +443,7 @@ fn number(value: &Rational) -> String {
     significant(to_f64(value), FIGURES)
 }
 
-fn place(power: usize) -> String {
+pub(super) fn place(power: usize) -> String {
     match power {
         0 => "constant term".to_owned(),
         1 => "coefficient of s".to_owned(),

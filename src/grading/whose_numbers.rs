@@ -26,7 +26,7 @@ pub fn grade_without_numbers(
     submission: &Submission,
     hand: Option<&HandMarks>,
 ) -> Scorecard {
-    let grader = Grader { reference, catalogue, submission };
+    let grader = Grader { reference, catalogue, submission, sheet: &lab.sheet };
     let mut alike = lab.clone();
     for question in &mut alike.questions {
         question.criteria.retain(|criterion| !lab.judges_varied(criterion));
@@ -74,7 +74,7 @@ pub fn grade_beside_members(
     hand: Option<&HandMarks>,
     members: &[MemberCard],
 ) -> Scorecard {
-    let grader = Grader { reference, catalogue, submission };
+    let grader = Grader { reference, catalogue, submission, sheet: &lab.sheet };
     let mut all = marks(lab, &grader, hand);
     for (question, marks) in lab.questions.iter().zip(&mut all) {
         for (criterion, mark) in question.criteria.iter().zip(marks) {

@@ -5,7 +5,7 @@ use crate::model::{Comparison, Equilibrium, LinearForm, Model, Rest, TangentRule
 use crate::nonlinear::{Chain, Nonlinearity};
 use crate::prose::Phrase;
 use crate::source::{SourceText, Span};
-use crate::submission::{AnswerSheet, FieldKind, NonlinearityKind, Submission};
+use crate::submission::{AnswerSheet, AnsweredIn, FieldKind, NonlinearityKind, Submission};
 use std::fmt;
 
 /// A lab, checked: every name resolves, points add up, equations parse.
@@ -146,6 +146,8 @@ pub struct QuestionField {
     pub prompt: String,
     /// Needed for full marks.
     pub required: bool,
+    /// For a transfer function: in letters, with numbers put in, or as one likes.
+    pub answered_in: AnsweredIn,
 }
 
 /// A response of a system.

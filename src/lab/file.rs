@@ -116,6 +116,9 @@ pub(super) struct ParameterFile {
     /// Values often used wrongly: looked for when a transfer function is wrong.
     #[serde(default)]
     pub mistaken: Vec<Text>,
+    /// Other spellings of it in answers: `[J_m, Jm]`.
+    #[serde(default)]
+    pub also: Vec<Text>,
     /// Values students get in place of `value`, each student one of them: `[0.4, 0.5, 0.6]`, or `{from: 0.4, to: 0.6, step: 0.1}`.
     pub varies: Option<Spanned<VariesFile>>,
 }
@@ -500,6 +503,10 @@ pub(super) struct FieldFile {
     pub prompt: Option<String>,
     /// For a `value`: the unit it is asked in, such as `rad/s`; `1` for a pure number. Default: that of the feature.
     pub unit: Option<Text>,
+    /// For a `transfer_function`: `letters` when it is asked for in the lab's letters, `numbers` when with numbers put in. Default:
+    /// either, or a mixture.
+    #[serde(rename = "in")]
+    pub answered_in: Option<Text>,
     /// Full marks can be had without it. Default false.
     #[serde(default)]
     pub optional: bool,

@@ -22,7 +22,8 @@ pub use equations::{Coordinate, Equation, Model, ModelError};
 pub use equilibrium::Equilibrium;
 pub use exact::Exact;
 pub use letters::{
-    AtRest, LetterAgreement, LetterDerivation, LetterEquation, LetterTerm, LettersError, Signal,
+    AtRest, LetterAgreement, LetterAtRest, LetterDerivation, LetterEquation, LetterPlace, LetterTerm,
+    LettersError, Signal, letters_at_rest,
 };
 pub use linear_form::{LinearForm, Root};
 pub use linearization::{Linearization, linearize};

@@ -1,10 +1,11 @@
 use super::beyond_formula::{fraction_rule, without_assignments};
 use super::comma_to_point::{Pointed, comma_in_list_text, commas_read, settled};
 use super::decimal_commas::decimal_comma_between;
+use super::letters::Letters;
 use super::problem::{Problem, quote, sentence};
 use super::wrapping::{unwrapped, without_unit};
-use super::{AnswerSheet, AnswerValue, Decimal};
-use crate::algebra::{Expression, ExpressionError, Polynomial, Rational};
+use super::{AnswerSheet, AnswerValue, AnsweredIn, Decimal};
+use crate::algebra::{Expression, ExpressionError, NodeKind, Polynomial, Rational};
 use crate::lti::TransferFunction;
 use crate::names::nearest;
 use crate::source::{Finding, Node, Span, Value};
@@ -25,12 +26,14 @@ type Symbols = BTreeMap<String, Rational>;
 pub(super) fn read_transfer_function(
     node: &Node,
     sheet: &AnswerSheet,
+    path: &str,
     source: &str,
 ) -> Result<(AnswerValue, Vec<Finding>), Box<Finding>> {
-    let mut reader = Reader { symbols: &sheet.symbols, source, commas: Vec::new(), variable: None };
+    let letters = Letters::new(sheet, path);
+    let mut reader = Reader { letters: &letters, source, commas: Vec::new(), variable: None };
     let (transfer_function, formula) = match &node.value {
         Value::Scalar(text) => reader.formula(node, text)?,
-        Value::Mapping(entries) => (reader.coefficients(node, entries)?, None),
+        Value::Mapping(entries) => reader.coefficients(node, entries)?,
         Value::Sequence(_) | Value::Null => {
             let message = format!("A transfer function is asked for here, and {} is given.", node.kind());
             return Err(Box::new(Finding::error(CODE, message).with_help(HELP).at(node.span)));
@@ -53,11 +56,41 @@ pub(super) fn read_transfer_function(
         let help = "If the denominator is a sum, put it in parentheses: `a / (b + c)`.";
         notes.push(Finding::warning("transfer_function.improper", message).with_help(help).at(node.span));
     }
+    let asked = sheet.letters.get(path).map_or(AnsweredIn::Either, |own| own.answered_in);
+    notes.extend(asked_otherwise(asked, formula.as_ref(), &letters.symbols, node));
     Ok((AnswerValue::TransferFunction { transfer_function, formula }, notes))
 }
 
+/// A note where letters are asked for and none are given, or the other way round.
+fn asked_otherwise(
+    asked: AnsweredIn,
+    formula: Option<&Expression>,
+    symbols: &Symbols,
+    node: &Node,
+) -> Option<Finding> {
+    let has_letters = formula.is_some_and(|formula| in_letters(formula, symbols));
+    match asked {
+        AnsweredIn::Letters if !has_letters && !symbols.is_empty() => {
+            let names: Vec<String> = symbols.keys().map(|name| format!("`{name}`")).collect();
+            let message = "This is asked for in letters, and there are only numbers in it.";
+            let help = format!("The letters that can be used are {}.", names.join(", "));
+            Some(Finding::warning("transfer_function.numbers", message).with_help(help).at(node.span))
+        }
+        AnsweredIn::Numbers if has_letters => {
+            let message = "This is asked for in numbers: the lab's own values are put in for your letters.";
+            let help = "Put the numbers in yourself, and look whether they come out as you expect.";
+            Some(Finding::warning("transfer_function.letters", message).with_help(help).at(node.span))
+        }
+        _ => None,
+    }
+}
+
+fn in_letters(formula: &Expression, symbols: &Symbols) -> bool {
+    formula.symbols().iter().any(|symbol| symbols.contains_key(&symbol.name))
+}
+
 /// `G(s) = -0.06s / (…)`, also in letters, also MATLAB's `tf([…], […])`.
-fn parse_formula(text: &str, symbols: &Symbols) -> Result<(TransferFunction, Option<Expression>), Problem> {
+fn parse_formula(text: &str, letters: &Letters) -> Result<(TransferFunction, Option<Expression>), Problem> {
     let start = after_name(text);
     let body = &text[start..];
     if let Some((num, den)) = matlab(body) {
@@ -72,9 +105,11 @@ fn parse_formula(text: &str, symbols: &Symbols) -> Result<(TransferFunction, Opt
             None => Err(Problem::new(CODE, start, text.len(), "The denominator is zero.").help(HELP)),
         };
     }
+    let symbols = &letters.symbols;
     let read = |expression: Expression| {
+        let expression = letters.named(expression);
         let variable = variable(&expression, symbols).unwrap_or("s");
-        let (num, den) = expression.rational_function(variable, symbols)?;
+        let (num, den) = expression.rational_function_nearly(variable, symbols)?;
         Ok((num, den, expression))
     };
     let (num, den, formula) =
@@ -139,7 +174,7 @@ type Entry = (String, Span, Node);
 
 /// Reads one transfer function, and remembers its decimal commas.
 struct Reader<'a> {
-    symbols: &'a Symbols,
+    letters: &'a Letters,
     source: &'a str,
     commas: Vec<(Span, String)>,
     /// What numerator and denominator were written in so far.
@@ -169,8 +204,8 @@ impl Reader<'_> {
         node: &Node,
         text: &str,
     ) -> Result<(TransferFunction, Option<Expression>), Box<Finding>> {
-        let (text, left_out) =
-            without_assignments(text, self.symbols, CODE).map_err(|problem| self.place(problem, node))?;
+        let (text, left_out) = without_assignments(text, &self.letters.symbols, CODE)
+            .map_err(|problem| self.place(problem, node))?;
         match fraction_rule(&text) {
             Ok(None) => {}
             Ok(Some(rule)) => return Ok((self.over_a_rule(node, &text, rule)?, None)),
@@ -180,10 +215,7 @@ impl Reader<'_> {
             }
         }
         let read = self.one_formula(node, &text)?;
-        let has_letters = |formula: &Expression| {
-            formula.symbols().iter().any(|symbol| self.symbols.contains_key(&symbol.name))
-        };
-        if left_out && read.1.as_ref().is_some_and(has_letters) {
+        if left_out && read.1.as_ref().is_some_and(|formula| in_letters(formula, &self.letters.symbols)) {
             let message = "A value is set behind a formula in letters, where the lab's own value is used.";
             let problem =
                 Problem::new(CODE, 0, text.len(), message).help("Put the numbers into the formula.");
@@ -214,15 +246,20 @@ impl Reader<'_> {
         node: &Node,
         text: &str,
     ) -> Result<(TransferFunction, Option<Expression>), Box<Finding>> {
-        let text = &bare(text, self.symbols);
+        let text = &bare(text, &self.letters.symbols);
         let from = after_name(text);
         // In MATLAB's lists commas separate.
         let from = if matlab(&text[from..]).is_some() { text.len() } else { from };
         let pointed = self.pointed(node, text, from, settled([&text[from..]]))?;
-        parse_formula(&pointed, self.symbols).map_err(|problem| self.place(problem, node))
+        parse_formula(&pointed, self.letters).map_err(|problem| self.place(problem, node))
     }
 
-    fn coefficients(&mut self, node: &Node, entries: &[Entry]) -> Result<TransferFunction, Box<Finding>> {
+    /// With a formula where there are letters in it.
+    fn coefficients(
+        &mut self,
+        node: &Node,
+        entries: &[Entry],
+    ) -> Result<(TransferFunction, Option<Expression>), Box<Finding>> {
         const NUM: &[&str] = &["num", "numerator", "n"];
         const DEN: &[&str] = &["den", "denominator", "denom", "d"];
         let texts = entries.iter().flat_map(|(_, _, value)| match &value.value {
@@ -258,13 +295,17 @@ impl Reader<'_> {
         };
         let (num, den) =
             (num.ok_or_else(|| missing("numerator"))?, den.ok_or_else(|| missing("denominator"))?);
-        TransferFunction::new(num, den).ok_or_else(|| {
-            Box::new(Finding::error(CODE, "The denominator is zero.").with_help(HELP).at(node.span))
-        })
+        let formula = tree(NodeKind::Divide(Box::new(num.1), Box::new(den.1)));
+        match TransferFunction::new(num.0, den.0) {
+            Some(g) => Ok((g, in_letters(&formula, &self.letters.symbols).then_some(formula))),
+            None => {
+                Err(Box::new(Finding::error(CODE, "The denominator is zero.").with_help(HELP).at(node.span)))
+            }
+        }
     }
 
-    /// A polynomial as a list of coefficients, as text with such a list, or as a formula in `s`.
-    fn polynomial(&mut self, node: &Node, settled: bool) -> Result<Polynomial, Box<Finding>> {
+    /// A polynomial as a list of coefficients, as text with such a list, or as a formula in `s`; and the formula of it.
+    fn polynomial(&mut self, node: &Node, settled: bool) -> Result<(Polynomial, Expression), Box<Finding>> {
         match &node.value {
             Value::Sequence(items) => {
                 if let Some(finding) = decimal_comma_between(items, self.source, false) {
@@ -277,29 +318,34 @@ impl Reader<'_> {
                     );
                     return Err(Box::new(Finding::error(CODE, message).with_help(HELP).at(node.span)));
                 }
-                items
-                    .iter()
-                    .map(|item| self.coefficient(item, settled))
-                    .collect::<Result<_, _>>()
-                    .map(Polynomial::new)
+                let read: Vec<(Rational, Expression)> =
+                    items.iter().map(|item| self.coefficient(item, settled)).collect::<Result<_, _>>()?;
+                let (values, formulas): (Vec<_>, Vec<_>) = read.into_iter().unzip();
+                Ok((Polynomial::new(values), by_powers(formulas)))
             }
             Value::Scalar(text) => {
                 if let Some(words) = coefficient_words(text) {
                     return match Pointed::as_typed(text).err().or_else(|| comma_in_list_text(text)) {
                         Some(problem) => Err(self.place(problem, node)),
-                        None => Ok(Polynomial::new(words)),
+                        None => {
+                            let numbers = words.iter().map(|word| tree(NodeKind::Number(word.clone())));
+                            Ok((Polynomial::new(words.clone()), by_powers(numbers.collect())))
+                        }
                     };
                 }
                 let text = self.pointed(node, &unwrapped(text), 0, settled)?;
                 let expression = Expression::parse_typed(&text)
+                    .map(|expression| self.letters.named(expression))
                     .map_err(|error| self.place(formula_problem(error, 0), node))?;
                 // `s` and `S` in one answer are two letters.
-                self.variable = self.variable.or(variable(&expression, self.symbols));
+                self.variable = self.variable.or(variable(&expression, &self.letters.symbols));
                 let (num, den) = expression
-                    .rational_function(self.variable.unwrap_or("s"), self.symbols)
+                    .rational_function_nearly(self.variable.unwrap_or("s"), &self.letters.symbols)
                     .map_err(|error| self.place(formula_problem(error, 0), node))?;
                 match den.leading() {
-                    Some(divisor) if den.degree() == 0 => Ok(num.scale(&(Rational::ONE / divisor))),
+                    Some(divisor) if den.degree() == 0 => {
+                        Ok((num.scale(&(Rational::ONE / divisor)), expression))
+                    }
                     _ => Err(Box::new(
                         Finding::error(CODE, "Numerator and denominator have to be polynomials in `s`.")
                             .with_help(HELP)
@@ -316,26 +362,50 @@ impl Reader<'_> {
     }
 
     /// A decimal or letters: `0.0132`, `m*l`, `-1/3`.
-    fn coefficient(&mut self, node: &Node, settled: bool) -> Result<Rational, Box<Finding>> {
+    fn coefficient(&mut self, node: &Node, settled: bool) -> Result<(Rational, Expression), Box<Finding>> {
         let Some(text) = node.as_scalar() else {
             let message = format!("A coefficient is asked for here, and {} is given.", node.kind());
             return Err(Box::new(Finding::error(CODE, message).with_help(HELP).at(node.span)));
         };
         let text = self.pointed(node, text, 0, settled)?;
         if let Ok(decimal) = Decimal::parse(&text) {
-            return Ok(decimal.value);
+            let number = tree(NodeKind::Number(decimal.value.clone()));
+            return Ok((decimal.value, number));
         }
-        let (num, den) = Expression::parse_typed(&text)
-            .and_then(|expression| expression.rational_function("s", self.symbols))
+        let (num, den, expression) = Expression::parse_typed(&text)
+            .and_then(|expression| {
+                let expression = self.letters.named(expression);
+                let (num, den) = expression.rational_function_nearly("s", &self.letters.symbols)?;
+                Ok((num, den, expression))
+            })
             .map_err(|error| self.place(formula_problem(error, 0), node))?;
         match den.leading() {
-            Some(divisor) if num.degree() == 0 && den.degree() == 0 => Ok(num.coefficient(0) / divisor),
+            Some(divisor) if num.degree() == 0 && den.degree() == 0 => {
+                Ok((num.coefficient(0) / divisor, expression))
+            }
             _ => {
                 let message = format!("{} is not a number: coefficients stand without `s`.", quote(&text));
                 Err(Box::new(Finding::error(CODE, message).with_help(HELP).at(node.span)))
             }
         }
     }
+}
+
+fn tree(kind: NodeKind) -> Expression {
+    Expression { kind, start: 0, end: 0 }
+}
+
+/// Coefficients, highest power first, as a polynomial in s.
+fn by_powers(coefficients: Vec<Expression>) -> Expression {
+    let highest = coefficients.len().saturating_sub(1);
+    let terms = coefficients.into_iter().enumerate().map(|(i, coefficient)| {
+        let s = tree(NodeKind::Symbol { name: "s".to_owned(), primes: 0 });
+        let power = tree(NodeKind::Number(Rational::from(highest - i)));
+        let power = tree(NodeKind::Power(Box::new(s), Box::new(power)));
+        tree(NodeKind::Multiply(Box::new(coefficient), Box::new(power)))
+    });
+    let sum = terms.reduce(|sum, term| tree(NodeKind::Add(Box::new(sum), Box::new(term))));
+    sum.unwrap_or_else(|| tree(NodeKind::Number(Rational::ZERO)))
 }
 
 #[cfg(test)]
@@ -353,7 +423,7 @@ mod tests {
     fn read(yaml: &str) -> Result<(TransferFunction, Vec<Finding>), Finding> {
         let text = format!("g: {yaml}");
         let tree = parse(&text).unwrap_or_else(|e| panic!("{yaml:?}: {e:?}"));
-        match read_transfer_function(tree.get("g").unwrap(), &sheet(), &text) {
+        match read_transfer_function(tree.get("g").unwrap(), &sheet(), "g", &text) {
             Ok((AnswerValue::TransferFunction { transfer_function, .. }, notes)) => {
                 Ok((transfer_function, notes))
             }

@@ -11,6 +11,7 @@ mod figure;
 mod formula;
 mod formula_answer;
 mod half_said;
+mod letters;
 mod own_claims;
 mod people;
 mod poles;
@@ -40,7 +41,7 @@ pub use attachments::{AttachmentError, Attachments, Folder, MAX_ATTACHMENT_BYTES
 pub use own_claims::{ContradictedClaim, claims_about, contradicted_claims};
 pub use read::{MAX_PROSE_BYTES, read};
 pub use self_check::self_check;
-pub use sheet::{AnswerSheet, Field, FieldKind};
+pub use sheet::{AnswerSheet, AnsweredIn, Field, FieldKind, FieldLetters};
 pub use unit::{Unit, UnitRatio};
 pub use words::{
     NonlinearityKind, nonlinearity_name, nonlinearity_word, shape_name, shape_word, stability_name,

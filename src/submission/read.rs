@@ -344,7 +344,7 @@ impl<'a> Reader<'a> {
     fn value(&mut self, field: &Field, node: &Node) -> Result<AnswerValue, Box<Finding>> {
         match field.kind {
             FieldKind::TransferFunction => {
-                let (value, notes) = read_transfer_function(node, self.sheet, self.text)?;
+                let (value, notes) = read_transfer_function(node, self.sheet, &field.path, self.text)?;
                 notes.into_iter().for_each(|note| self.findings.push(note));
                 Ok(value)
             }

@@ -57,4 +57,27 @@ pub struct AnswerSheet {
     pub fields: Vec<Field>,
     /// Letters that may stand in formulas, with the handout's values.
     pub symbols: BTreeMap<String, Rational>,
+    /// Other spellings of them: what is written → the lab's own name.
+    pub also: BTreeMap<String, String>,
+    /// What besides holds for one field's letters, by its path.
+    pub letters: BTreeMap<String, FieldLetters>,
+}
+
+/// Whether a formula is asked for in letters or with numbers put in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum AnsweredIn {
+    #[default]
+    Either,
+    Letters,
+    Numbers,
+}
+
+/// Letters of one field.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct FieldLetters {
+    pub answered_in: AnsweredIn,
+    /// Values at rest with a letter of their own, `h_0`, with the lab's values.
+    pub symbols: BTreeMap<String, Rational>,
+    /// Other spellings of them: `h` → `h_0`.
+    pub also: BTreeMap<String, String>,
 }

@@ -39,7 +39,13 @@ fn sheet() -> AnswerSheet {
         required,
     });
     let symbols = [("m", "0.2"), ("l", "0.3")].map(|(n, v)| (n.to_owned(), parse_decimal(v).unwrap()));
-    AnswerSheet { lab: "tank".into(), title: "Tank".into(), fields: fields.into(), symbols: symbols.into() }
+    AnswerSheet {
+        lab: "tank".into(),
+        title: "Tank".into(),
+        fields: fields.into(),
+        symbols: symbols.into(),
+        ..AnswerSheet::default()
+    }
 }
 
 const GOOD: &str = "\

@@ -43,6 +43,13 @@ impl Bench {
         &TANGENTS
     }
 
+    /// `letters.yaml`: transfer functions asked for in letters.
+    pub fn letters() -> &'static Self {
+        static LETTERS: LazyLock<Bench> =
+            LazyLock::new(|| Bench::of("letters.yaml", include_str!("letters.yaml")));
+        &LETTERS
+    }
+
     fn of(name: &str, text: &str) -> Self {
         let lab = LabDefinition::parse(SourceText::new(name, text));
         Self::new(lab.unwrap_or_else(|errors| panic!("{name}: {errors:#?}")))

@@ -28,7 +28,7 @@
 //! What stands before `marks:` is what an answer file has below `answers:`; files are those of `submissions/`. What is in
 //! double quotes is a part of what the student reads beside the mark.
 //!
-//! The embedded lab is asked, or `small.yaml`, `oscillator.yaml` or `tangent.yaml` when the ids are its own.
+//! The embedded lab is asked, or `small.yaml`, `oscillator.yaml`, `tangent.yaml` or `letters.yaml` when the ids are its own.
 
 use crate::bench::Bench;
 use polemark::grading::ItemScore;
@@ -342,7 +342,8 @@ fn differences(bench: &Bench, example: &Example, met: &mut BTreeSet<String>) -> 
 
 #[test]
 fn the_examples_are_true_and_show_every_rule() {
-    let benches = [Bench::embedded(), Bench::small(), Bench::oscillator(), Bench::tangents()];
+    let benches =
+        [Bench::embedded(), Bench::small(), Bench::oscillator(), Bench::tangents(), Bench::letters()];
     let manual = Manual::read(&benches);
     let mut met = BTreeSet::new();
     let mut report = Vec::new();

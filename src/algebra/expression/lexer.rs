@@ -204,6 +204,15 @@ impl Lexer<'_> {
             && primes == 0
         {
             let base = plain(c);
+            if base == '_'
+                && let Some(index) = braced(&self.text[self.at + c.len_utf8()..])
+            {
+                name.push('_');
+                name.push_str(index);
+                self.at += c.len_utf8() + index.len() + 2;
+                greek_start = false;
+                continue;
+            }
             match greek::name(base) {
                 Some(greek) if name.is_empty() => {
                     name.push_str(greek);
@@ -265,7 +274,18 @@ impl Lexer<'_> {
             "frac" | "dfrac" | "tfrac" => self.push(start, TokenKind::Fraction),
             "cdot" | "times" => self.push(start, TokenKind::Times),
             name if Function::named(name).is_some() || greek::letter(name).is_some() => {
-                self.push_name(start, command, 0);
+                // An index belongs to the letter: `\theta_0`.
+                let mut name = command;
+                if self.peek() == Some('_') {
+                    let rest = &self.text[self.at + 1..];
+                    let bare = || Some(&rest[..rest.bytes().take_while(u8::is_ascii_alphanumeric).count()]);
+                    let (index, extra) = braced(rest).map_or((bare(), 0), |index| (Some(index), 2));
+                    if let Some(index) = index.filter(|index| !index.is_empty()) {
+                        name = format!("{name}_{index}");
+                        self.at += 1 + index.len() + extra;
+                    }
+                }
+                self.push_name(start, name, 0);
             }
             _ => {
                 return Err(error(
@@ -300,6 +320,12 @@ impl Lexer<'_> {
             help: Some(help),
         }
     }
+}
+
+/// The letters and digits of an index in braces: `m` of `{m}`.
+fn braced(text: &str) -> Option<&str> {
+    let (index, _) = text.strip_prefix('{')?.split_once('}')?;
+    (!index.is_empty() && index.bytes().all(|b| b.is_ascii_alphanumeric())).then_some(index)
 }
 
 fn error(start: usize, end: usize, message: String) -> ExpressionError {

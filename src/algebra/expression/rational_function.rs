@@ -1,5 +1,5 @@
 use super::super::clip::clip;
-use super::super::{Polynomial, Rational, exact_root, from_f64};
+use super::super::{Polynomial, Rational, exact_root, from_f64, to_f64};
 use super::{Expression, ExpressionError, Function, NodeKind, names, text::number_text};
 use dashu_int::ops::{Abs, BitTest};
 use std::collections::BTreeMap;
@@ -16,7 +16,25 @@ impl Expression {
         variable: &str,
         symbols: &BTreeMap<String, Rational>,
     ) -> Result<(Polynomial, Polynomial), ExpressionError> {
-        let mut work = Work { variable, symbols, multiplications: 0 };
+        self.worked_out(variable, symbols, false)
+    }
+
+    /// The same, where a root or a function of numbers that is irrational counts as its nearest `f64`.
+    pub fn rational_function_nearly(
+        &self,
+        variable: &str,
+        symbols: &BTreeMap<String, Rational>,
+    ) -> Result<(Polynomial, Polynomial), ExpressionError> {
+        self.worked_out(variable, symbols, true)
+    }
+
+    fn worked_out(
+        &self,
+        variable: &str,
+        symbols: &BTreeMap<String, Rational>,
+        nearly: bool,
+    ) -> Result<(Polynomial, Polynomial), ExpressionError> {
+        let mut work = Work { variable, symbols, multiplications: 0, nearly };
         let quotient = work.quotient(self)?;
         Ok((quotient.num, quotient.den))
     }
@@ -31,6 +49,8 @@ struct Work<'a> {
     variable: &'a str,
     symbols: &'a BTreeMap<String, Rational>,
     multiplications: usize,
+    /// Irrational numbers may be rounded.
+    nearly: bool,
 }
 
 struct Quotient {
@@ -173,6 +193,12 @@ impl Work<'_> {
             {
                 return Ok(Quotient::constant(root));
             }
+            if self.nearly
+                && let Some(value) = base.as_constant()
+                && let Some(value) = from_f64(to_f64(&value).powf(to_f64(&exponent)))
+            {
+                return Ok(Quotient::constant(value));
+            }
             let shown = number_text(&exponent);
             return Err(error(b, format!("`{}` is not a whole power", clip(&shown))));
         }
@@ -219,10 +245,11 @@ impl Work<'_> {
         };
         let exact = match function {
             Function::Sqrt => exact_root(&value, 2),
-            Function::Abs => Some(if value < Rational::ZERO { -value } else { value }),
+            Function::Abs => Some(if value < Rational::ZERO { -value.clone() } else { value.clone() }),
             _ => None,
         };
-        match exact {
+        let near = || from_f64(function.apply(to_f64(&value))).filter(|_| self.nearly);
+        match exact.or_else(near) {
             Some(value) => Ok(Quotient::constant(value)),
             None => Err(ExpressionError {
                 help: Some("write its value as a decimal number".to_owned()),

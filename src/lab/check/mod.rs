@@ -192,7 +192,9 @@ impl Checker<'_> {
         let mistakes = self.mistakes(&file.mistakes, models.as_deref(), list);
         let (questions, parameters) = (questions?, parameters?.list);
         let title = defaults::title(file.title.as_ref(), &file.lab.value);
-        let sheet = sheet::sheet(&file.lab.value, &title, &questions, &parameters);
+        let also = self.also(file);
+        let models = models?;
+        let sheet = sheet::sheet(&file.lab.value, &title, &questions, &parameters, &models, also);
         let model_answer = self.model_answer(file, tree, &sheet)?;
         Some(LabDefinition {
             id: file.lab.value.clone(),
@@ -202,7 +204,7 @@ impl Checker<'_> {
             outcomes,
             parameters,
             variants: variants?,
-            models: models?,
+            models,
             simulations: simulations?,
             questions,
             observed: observed?,

@@ -113,6 +113,25 @@ impl Checker<'_> {
 
     /// What is accepted, and what is mistaken, besides its `value`.
     #[allow(clippy::type_complexity)]
+    /// Other spellings of parameters, each of which means one of them only.
+    pub(super) fn also(&mut self, file: &LabFile) -> BTreeMap<String, String> {
+        let mut also = BTreeMap::new();
+        for (name, p) in &file.parameters.0 {
+            for spelling in &p.also {
+                let known = file.parameters.0.iter().any(|(other, _)| other.value == spelling.value);
+                if known || also.contains_key(&spelling.value) {
+                    let message = format!("`{}` already means another letter", spelling.value);
+                    let help = "give spellings that no other parameter has".to_owned();
+                    self.error("lab.duplicate", span(spelling), message, Some(help));
+                } else {
+                    self.symbol(spelling, "spelling");
+                    also.insert(spelling.value.clone(), name.value.clone());
+                }
+            }
+        }
+        also
+    }
+
     fn other_values(
         &mut self,
         name: &Text,

@@ -3,7 +3,7 @@ use super::{Checker, Names, span};
 use crate::lab::file::{FieldFile, LabFile, QuestionFile, Text};
 use crate::lab::names::{list, suggestion};
 use crate::lab::{Check, Criterion, FeatureKind, Points, Question, QuestionField, defaults};
-use crate::submission::FieldKind;
+use crate::submission::{AnsweredIn, FieldKind};
 
 pub(in crate::lab) const KINDS: &[(&str, FieldKind)] = &[
     ("transfer_function", FieldKind::TransferFunction),
@@ -241,9 +241,28 @@ impl Checker<'_> {
                     .collect::<Vec<_>>()
                     .join(" "),
                 required: !field.optional,
+                answered_in: self.answered_in(field, kind),
             });
         }
         (entries.complete.then_some(fields), entries)
+    }
+
+    /// Whether a transfer function is asked for in letters or numbers.
+    fn answered_in(&mut self, field: &FieldFile, kind: FieldKind) -> AnsweredIn {
+        let Some(word) = &field.answered_in else { return AnsweredIn::Either };
+        if kind != FieldKind::TransferFunction {
+            let message =
+                format!("`in` is for a `transfer_function`, and this is of kind `{}`", kind_name(kind));
+            self.error("lab.question", span(word), message, Some("remove `in`".to_owned()));
+        }
+        match word.value.as_str() {
+            "letters" => AnsweredIn::Letters,
+            "numbers" => AnsweredIn::Numbers,
+            _ => {
+                self.one_of(word, "way to answer", &["letters", "numbers"]);
+                AnsweredIn::Either
+            }
+        }
     }
 
     /// The kind of a field: as it says, or of what it asks for.

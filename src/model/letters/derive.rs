@@ -1,6 +1,7 @@
 use super::super::{Equilibrium, Exact, Model, ParameterValues};
 use super::determinant::{coefficients, determinant, products};
 use super::form::{Signed, power_of_s, product};
+use super::rest::letter_of;
 use super::ring::{Atom, Fraction, Generator, Ring, S};
 use super::signal::{Signal, capital};
 use super::symbolic::{at_rest, evaluate};
@@ -28,12 +29,14 @@ pub(super) fn derive(
     let lookup = |name: &str, primes: u8, ring: &Ring| rest.fraction(name, primes, ring);
 
     let mut rest_equations = Vec::new();
+    let mut relations = Vec::new();
     let motion = model.equations.len() - model.outputs.len().min(model.equations.len());
     for equation in &model.equations[..motion] {
         let left = evaluate(&mut ring, &equation.left, &lookup, budget);
         let right = evaluate(&mut ring, &equation.right, &lookup, budget);
         let (left, right) = (left?, right?);
         if left != right {
+            relations.push(ring.sum(&left, &right.negated(), budget)?.num);
             let mut shown = |side| at_rest(&mut ring, side, &lookup, budget);
             rest_equations.push((shown(&equation.left)?, shown(&equation.right)?));
         }
@@ -56,6 +59,19 @@ pub(super) fn derive(
     for (i, (row, forced)) in rows.iter_mut().zip(&mut forcing).enumerate() {
         turn(&ring, i, row, forced, budget)?;
     }
+
+    for one in model.derived.iter() {
+        let Some(name) = ring.named(&one.name) else { continue };
+        let value = evaluate(&mut ring, &one.formula, &lookup, budget)?;
+        relations.push(ring.sum(&name, &value.negated(), budget)?.num);
+    }
+    for (letter, generator) in ring.generators.iter().enumerate() {
+        if let Atom::Root { of, order } = &generator.atom {
+            let power = Poly::term(Rational::ONE, Monomial::letter(letter as u16, *order));
+            relations.push(power.minus(of, budget)?);
+        }
+    }
+    relations.retain(|relation| !relation.is_zero());
 
     let names = Names { model, rest: &rest, input };
     let writer = Writer { ring: &ring, names: &names };
@@ -80,14 +96,14 @@ pub(super) fn derive(
         return Err(Trouble::Undefined);
     }
     let plain = (Monomial::default(), Rational::ONE);
-    let shown =
+    let forms =
         |poly: &Poly, rows: &[Vec<Poly>], (shared, factor): (&Monomial, &Rational), budget: &mut Budget| {
             let parts = products(rows, budget)?;
             let parts = parts.as_ref().map(|parts| (parts.as_slice(), shared, factor));
-            Ok::<_, Trouble>(ring.by_powers_of_s(coefficients(&ring, poly, parts, budget)?))
+            coefficients(&ring, poly, parts, budget)
         };
-    let numerator = shown(&num, &replaced, (&plain.0, &plain.1), budget)?;
-    let denominator = shown(&den, &matrix, (&plain.0, &plain.1), budget)?;
+    let numerator = ring.by_powers_of_s(forms(&num, &replaced, (&plain.0, &plain.1), budget)?);
+    let denominator = ring.by_powers_of_s(forms(&den, &matrix, (&plain.0, &plain.1), budget)?);
 
     let (short_num, short_den, shared) = ring.shortened(num, den, budget)?;
     let factor = scale(&ring, &short_num, &short_den);
@@ -95,9 +111,11 @@ pub(super) fn derive(
     let monomial =
         shared.leading().filter(|_| shared.term_count() == 1).map(|(monomial, _)| monomial.clone());
     let short = |poly: &Poly, rows: &[Vec<Poly>], budget: &mut Budget| match &monomial {
-        Some(monomial) => shown(poly, rows, (monomial, &factor), budget),
-        None => ring.collected(poly, budget),
+        Some(monomial) => forms(poly, rows, (monomial, &factor), budget),
+        None => coefficients(&ring, poly, None, budget),
     };
+    let num_forms = short(&short_num, &replaced, budget)?;
+    let den_forms = short(&short_den, &matrix, budget)?;
     let cancelled = match shared.as_constant() {
         Some(_) => None,
         None => Some(ring.collected(&shared, budget)?),
@@ -117,12 +135,19 @@ pub(super) fn derive(
         numerator,
         denominator,
         cancelled,
-        num: short(&short_num, &replaced, budget)?,
-        den: short(&short_den, &matrix, budget)?,
+        num: ring.by_powers_of_s(num_forms.clone()),
+        den: ring.by_powers_of_s(den_forms.clone()),
+        num_coefficients: unsigned(num_forms),
+        den_coefficients: unsigned(den_forms),
+        relations,
         forcing: right.iter().map(|entry| ring.collected(entry, budget)).collect::<Result<_, _>>()?,
         matrix: written(&matrix, budget)?,
         function: LetterFunction { ring: ring.clone(), num: short_num, den: short_den },
     })
+}
+
+fn unsigned(forms: Vec<(u32, Signed)>) -> Vec<(u32, Expression)> {
+    forms.into_iter().map(|(power, form)| (power, form.into_expression())).collect()
 }
 
 /// Turns the signs of an equation so that its own coordinate, or the first term, has none.
@@ -216,11 +241,6 @@ struct Rest {
 impl Rest {
     fn new(model: &Model, parameters: &ParameterValues, at: &Equilibrium) -> Self {
         let names = model.coordinates.iter().map(|c| &c.name).chain(&model.inputs);
-        let taken = |name: &str| {
-            parameters.contains_key(name)
-                || model.coordinates.iter().any(|c| c.name == name)
-                || model.inputs.iter().any(|i| i == name)
-        };
         let (mut letters, mut turns) = (BTreeMap::new(), BTreeMap::new());
         for name in names {
             match at.value(name, 0) {
@@ -231,9 +251,7 @@ impl Rest {
                     }
                 }
                 Some(value) => {
-                    let endings = ["_0", "_e", "_rest", "_at_rest"];
-                    let free = endings.iter().map(|end| format!("{name}{end}")).find(|letter| !taken(letter));
-                    letters.insert(name.clone(), (free.unwrap_or_else(|| format!("{name}__0")), value));
+                    letters.insert(name.clone(), (letter_of(model, name), value));
                 }
             }
         }

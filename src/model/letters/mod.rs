@@ -4,6 +4,8 @@ mod derive;
 mod determinant;
 mod form;
 mod order;
+mod places;
+mod rest;
 mod ring;
 mod signal;
 mod symbolic;
@@ -11,6 +13,8 @@ mod symbolic;
 use super::{Equilibrium, Model};
 use crate::algebra::{Expression, MultivariatePolynomial, OverBudget, Polynomial, Rational, to_f64};
 use crate::lti::TransferFunction;
+pub use places::LetterPlace;
+pub use rest::{LetterAtRest, letters_at_rest};
 use ring::Ring;
 pub use signal::Signal;
 use std::collections::BTreeMap;
@@ -46,7 +50,12 @@ pub struct LetterDerivation {
     /// The transfer function.
     pub num: Expression,
     pub den: Expression,
+    /// The coefficient of each power of s in both, lowest power first, zeros left out.
+    pub num_coefficients: Vec<(u32, Expression)>,
+    pub den_coefficients: Vec<(u32, Expression)>,
     function: LetterFunction,
+    /// What is 0 among the letters: the equations at rest, roots, parameters that follow from others.
+    relations: Vec<MultivariatePolynomial>,
 }
 
 /// A coordinate or input away from 0 at rest.
@@ -146,6 +155,21 @@ impl LetterDerivation {
             return self.num.clone();
         }
         ring::node(crate::algebra::NodeKind::Divide(Box::new(self.num.clone()), Box::new(self.den.clone())))
+    }
+
+    /// Every letter that may stand in an answer: parameters and values at rest.
+    pub fn letters(&self) -> Vec<&str> {
+        let named = self.function.ring.generators.iter().filter_map(|generator| match &generator.atom {
+            ring::Atom::Name { name, .. } => Some(name.as_str()),
+            _ => None,
+        });
+        named.collect()
+    }
+
+    /// Whether a letter is needed at all: without any, numbers are the answer.
+    pub fn has_letters(&self) -> bool {
+        let polys = [&self.function.num, &self.function.den];
+        polys.iter().any(|poly| poly.letters().iter().any(|letter| *letter != ring::S))
     }
 
     /// Puts the lab's numbers in and compares with what was computed from numbers.

@@ -223,3 +223,88 @@ fn as_textbooks_derive_them() {
         cancelled: "",
     });
 }
+
+/// The tank with numbers for all letters such that it is at rest.
+fn tank() -> LetterDerivation {
+    let coordinate = Coordinate { name: "h".into(), unit: String::new(), description: String::new() };
+    let names = ["A", "k"].map(str::to_owned).to_vec();
+    let model = Model::new(vec![coordinate], vec!["q".into()], names, &["A*h' = q - k*sqrt(h)"]).unwrap();
+    let parameters =
+        [("A", "2"), ("k", "0.5")].map(|(n, v)| (n.to_owned(), parse_decimal(v).unwrap())).into();
+    let pairs = [("h", "4"), ("q", "1")].map(|(n, v)| (n.to_owned(), v.to_owned()));
+    let at = Equilibrium::parse(&model, &parameters, &pairs).unwrap();
+    LetterDerivation::derive(&model, &parameters, &at, "q", "h").unwrap()
+}
+
+/// Whether a formula is the derived function at several places; `None` where it is irrational or too much.
+fn agrees(derivation: &LetterDerivation, text: &str) -> Option<bool> {
+    let formula = Expression::parse_typed(text).unwrap_or_else(|e| panic!("{text}: {e}"));
+    let mut all = true;
+    for nth in 0..3 {
+        let place = derivation.place(nth).unwrap();
+        all &= place.function_of(&formula, "s")?.equals(&place.function);
+    }
+    Some(all)
+}
+
+#[test]
+fn formulas_are_held_against_it_where_the_equations_at_rest_hold() {
+    let tank = tank();
+    assert_eq!(tank.letters(), ["A", "k", "h_0", "q_0"]);
+    for (text, expected) in [
+        ("1/(A*s + k/(2*sqrt(h_0)))", Some(true)),
+        ("2*sqrt(h_0)/(2*A*sqrt(h_0)*s + k)", Some(true)),
+        ("2*h_0/(2*A*h_0*s + q_0)", Some(true)),
+        ("2*q_0/(2*A*q_0*s + k^2)", Some(true)),
+        ("1/(A*s + k*h_0^(-1/2)/2)", Some(true)),
+        ("1/(A*s + k/(2*sqrt(h_0)))*exp(k)/exp(k)", Some(true)),
+        ("1/(A*s + k/(2*sqrt(h_0)))*(sin(k)^2 + cos(k)^2)", Some(true)),
+        ("1/(A*s + k/sqrt(h_0))", Some(false)),
+        ("1/(2*s + 0.125)", Some(false)),
+        ("1/(A*s + 0.125)", Some(false)),
+        ("1/(A*s + k/4)", Some(false)),
+        ("1/(A*s + k/(2*sqrt(2*h_0)))", None),
+    ] {
+        assert_eq!(agrees(&tank, text), expected, "{text}");
+    }
+}
+
+/// Multiplied out, some of these have more terms than fit into memory.
+#[test]
+fn hostile_formulas_end() {
+    let tank = tank();
+    for text in [
+        "1/(A*s + k/(2*sqrt(h_0))) + (A+k+h_0+q_0)^60".to_owned(),
+        "((A+k+h_0)^60 + s)^60".to_owned(),
+        format!("{}1{}", "(A+k+s*".repeat(45), ")^2".repeat(45)),
+        format!("1/(A*s + {}k{})", "(k+".repeat(60), "*h_0)".repeat(60)),
+        format!("1/(A*s + {}k{})", "sqrt(".repeat(60), ")".repeat(60)),
+        format!("1/(A*s + {}k{})", "exp(".repeat(60), ")".repeat(60)),
+        "(A+k*s)^30*(h_0+q_0*s)^30/(A*s+k)^60".to_owned(),
+        "1/(A*s + k^60^60)".to_owned(),
+        "(s+A/7)^20/((s+k/11)^20*(s+h_0/13)^20)".to_owned(),
+    ] {
+        let _ = agrees(&tank, &text);
+    }
+}
+
+#[test]
+fn a_system_too_large_for_a_page_says_so() {
+    let names: Vec<String> = (0..9).map(|i| format!("x{i}")).collect();
+    let parameters: Vec<String> = (0..9).flat_map(|i| (0..9).map(move |j| format!("a{i}_{j}"))).collect();
+    let equations: Vec<String> = (0..9)
+        .map(|i| {
+            let terms: Vec<String> = (0..9).map(|j| format!("a{i}_{j}*x{j}")).collect();
+            format!("x{i}' = {} + u", terms.join(" + "))
+        })
+        .collect();
+    let coordinate =
+        |n: &String| Coordinate { name: n.clone(), unit: String::new(), description: String::new() };
+    let model =
+        Model::new(names.iter().map(coordinate).collect(), vec!["u".into()], parameters.clone(), &equations);
+    let model = model.unwrap();
+    let values = parameters.iter().map(|n| (n.clone(), Rational::from(n.len()))).collect();
+    let at = Equilibrium::parse(&model, &values, &[]).unwrap();
+    let derived = LetterDerivation::derive(&model, &values, &at, "u", "x0");
+    assert_eq!(derived.err(), Some(LettersError::OverBudget));
+}

@@ -1,0 +1,192 @@
+//! Transfer functions asked for in letters: right for every value of the letters, not only for the lab's.
+
+use super::Evidence;
+use super::accepted::Accepted;
+use super::mark::Mark;
+use super::scale::{Fit, Part};
+use super::transfer_function::{ExactReading, read_exactly};
+use crate::algebra::{Expression, Function, NodeKind, Rational};
+use crate::lab::{Check, Criterion, Points, Tolerance};
+use crate::model::LetterDerivation;
+
+/// What is expected by a criterion, in letters.
+pub(super) fn expected(check: &Check, derivation: &LetterDerivation) -> String {
+    match check {
+        Check::Numerator { .. } => format!("`{}`, up to a factor common to both.", derivation.num),
+        Check::Denominator { .. } => format!("`{}`, up to a factor common to both.", derivation.den),
+        _ => format!("The form of `{}`, with nothing left to cancel.", derivation.transfer_function()),
+    }
+}
+
+/// Marks in letters of all `criteria` on one transfer function, in their order; `numeric` are those by the lab's numbers.
+///
+/// The formula is held against the derived one at several exact places, each with other values of all letters, where the
+/// equations at rest hold: what differs at one of them is not the same function. What cannot be put into such a place is
+/// decided by the lab's numbers, and left to a person.
+pub(super) fn judge(
+    criteria: &[&Criterion],
+    derivation: &LetterDerivation,
+    formula: Option<&Expression>,
+    numeric: Vec<Mark>,
+) -> Vec<Mark> {
+    let known = derivation.letters();
+    let used = formula.map(Expression::symbols).unwrap_or_default();
+    let has_letters = used.iter().any(|symbol| known.contains(&symbol.name.as_str()));
+    let Some(formula) = formula.filter(|_| has_letters) else {
+        return numbers_only(criteria, derivation, numeric);
+    };
+    let Some(readings) = readings(criteria, derivation, formula) else {
+        return numeric.into_iter().map(left_to_a_person).collect();
+    };
+    let unsure = has_functions(formula) || has_functions(&derivation.transfer_function());
+    let marks = criteria.iter().zip(numeric).enumerate().map(|(index, (criterion, numeric))| {
+        // The place at which it earns least tells.
+        let Some(worst) = readings.iter().min_by_key(|reading| reading.scores[index].1) else {
+            return numeric;
+        };
+        let (code, earned) = worst.scores[index];
+        let found = formula.to_string();
+        let expected = expected(&criterion.check, derivation);
+        if code == "right" {
+            let reason = "It is right for every value of the letters.".to_owned();
+            return Mark::right(earned, Evidence { expected, found, reason, ..Evidence::default() });
+        }
+        let for_numbers =
+            numeric.earned == criterion.points && !matches!(criterion.check, Check::Structure { .. });
+        if for_numbers && unsure {
+            return left_to_a_person(numeric);
+        }
+        let reason = if for_numbers {
+            format!(
+                "With the lab's numbers it comes out right, but not for other values of the letters. {}",
+                why(code, worst, criterion, derivation)
+            )
+        } else {
+            why(code, worst, criterion, derivation)
+        };
+        let evidence = Evidence { expected, found, reason, ..Evidence::default() };
+        let code = if for_numbers { "letters.numbers_only" } else { code };
+        if earned > Points::ZERO { Mark::partly(code, earned, evidence) } else { Mark::wrong(code, evidence) }
+    });
+    marks.collect()
+}
+
+/// Of an answer without any letter: its form can be judged, its coefficients are not what was asked for.
+fn numbers_only(criteria: &[&Criterion], derivation: &LetterDerivation, numeric: Vec<Mark>) -> Vec<Mark> {
+    let marks = criteria.iter().zip(numeric).map(|(criterion, mark)| {
+        let judged = matches!(criterion.check, Check::Numerator { .. } | Check::Denominator { .. });
+        if !judged || mark.code != "right" || !needs_letters(&criterion.check, derivation) {
+            return mark;
+        }
+        let names: Vec<String> = derivation.letters().iter().map(|name| format!("`{name}`")).collect();
+        let reason = format!(
+            "With the lab's numbers this is right, but it was asked for in letters, so that it says what depends on what. The \
+             letters that can be used are {}.",
+            names.join(", ")
+        );
+        let expected = expected(&criterion.check, derivation);
+        Mark::wrong("letters.numbers_only", Evidence { expected, reason, ..mark.evidence })
+    });
+    marks.collect()
+}
+
+/// Whether there are letters at all in what the criterion judges: 1 over anything is right as it is.
+fn needs_letters(check: &Check, derivation: &LetterDerivation) -> bool {
+    let known = derivation.letters();
+    let part = match check {
+        Check::Numerator { .. } => &derivation.num,
+        _ => &derivation.den,
+    };
+    part.symbols().iter().any(|symbol| known.contains(&symbol.name.as_str()))
+}
+
+fn left_to_a_person(mark: Mark) -> Mark {
+    let reason = format!(
+        "{} Whether it also holds for other values of the letters could not be decided; a person will look at it.",
+        mark.evidence.reason
+    );
+    Mark { provisional: true, evidence: Evidence { reason, ..mark.evidence }, ..mark }
+}
+
+/// Places looked at, and how many must be found.
+const TRIES: usize = 12;
+const PLACES: usize = 3;
+
+/// The formula beside the derived function at several places; `None` when it cannot be put into enough of them.
+fn readings(
+    criteria: &[&Criterion],
+    derivation: &LetterDerivation,
+    formula: &Expression,
+) -> Option<Vec<ExactReading>> {
+    let exact: Vec<Criterion> = criteria.iter().map(|criterion| without_tolerance(criterion)).collect();
+    let exact: Vec<&Criterion> = exact.iter().collect();
+    let variable = match formula.symbols().iter().any(|symbol| symbol.name == "s") {
+        true => "s",
+        false => "S",
+    };
+    let mut found = Vec::new();
+    for nth in 0..TRIES {
+        let Some(place) = derivation.place(nth) else { continue };
+        let Some(typed) = place.function_of(formula, variable) else { continue };
+        let accepted = [Accepted { differs: &[], what: &place.function }];
+        found.extend(read_exactly(&exact, &accepted, &typed));
+        if found.len() == PLACES {
+            return Some(found);
+        }
+    }
+    None
+}
+
+fn without_tolerance(criterion: &Criterion) -> Criterion {
+    let none = Tolerance { absolute: Rational::ZERO, relative: Rational::ZERO, figures: None };
+    let mut exact = criterion.clone();
+    if let Check::Numerator { tolerance, .. } | Check::Denominator { tolerance, .. } = &mut exact.check {
+        *tolerance = none;
+    }
+    exact
+}
+
+/// Functions that are not algebraic may be equal without looking so: sin(2a) and 2 sin(a) cos(a).
+fn has_functions(node: &Expression) -> bool {
+    let own = matches!(&node.kind, NodeKind::Call(function, _) if !matches!(function, Function::Sqrt | Function::Abs));
+    own || node.children().any(has_functions)
+}
+
+fn why(code: &str, reading: &ExactReading, criterion: &Criterion, derivation: &LetterDerivation) -> String {
+    let (part, name, coefficients) = match &criterion.check {
+        Check::Numerator { .. } => (Part::Numerator, "numerator", &derivation.num_coefficients),
+        Check::Denominator { .. } => (Part::Denominator, "denominator", &derivation.den_coefficients),
+        _ => return reading.structure.clone(),
+    };
+    if !reading.supported {
+        return format!(
+            "Too few of your coefficients stand in the proportion expected of them, so nothing in the {name} can be said to be right."
+        );
+    }
+    let expected = |power: usize| {
+        let found = coefficients.iter().find(|(known, _)| usize::try_from(*known) == Ok(power));
+        found.map(|(_, coefficient)| coefficient.to_string()).unwrap_or_default()
+    };
+    let words: Vec<String> = reading
+        .off
+        .iter()
+        .filter(|(known, ..)| *known == part)
+        .map(|(_, power, fit)| {
+            let place = super::transfer_function::place(*power);
+            match fit {
+                Fit::Extra => format!("The {place} should not be there."),
+                Fit::Missing => format!("The {place} is missing: it should be `{}`.", expected(*power)),
+                Fit::Sign => format!("The {place} has the wrong sign: it should be `{}`.", expected(*power)),
+                _ => format!("The {place} should be `{}`.", expected(*power)),
+            }
+        })
+        .collect();
+    let scale =
+        if words.is_empty() { "" } else { " (All up to a factor common to numerator and denominator.)" };
+    match code {
+        "denominator.one_slip" => {
+            format!("One coefficient has a slip; the others are right. {}{scale}", words.join(" "))
+        }
+        _ => format!("{}{scale}", words.join(" ")),
+    }
+}
