@@ -89,7 +89,10 @@ struct PointView {
     comparisons: Vec<FigureView>,
     trust: String,
     /// Of a static function: its deviations, its tangent, both ways; empty of what moves.
-    tangent_html: Vec<String>,
+    /// Of a static function: the tangent, what deviations are, and the tangent in deviations. Empty where there is none.
+    tangent_html: String,
+    deviations_html: String,
+    deviation_line_html: String,
 }
 
 #[derive(Serialize)]
@@ -268,14 +271,9 @@ fn point(
             })
             .collect(),
         trust: trust(&kit.reference, system).unwrap_or_default(),
-        tangent_html: [
-            tangent::line_html(point, LineForm::Line),
-            tangent::deviations_html(point),
-            tangent::line_html(point, LineForm::Deviations),
-        ]
-        .into_iter()
-        .flatten()
-        .collect(),
+        tangent_html: tangent::line_html(point, LineForm::Line).unwrap_or_default(),
+        deviations_html: tangent::deviations_html(point).unwrap_or_default(),
+        deviation_line_html: tangent::line_html(point, LineForm::Deviations).unwrap_or_default(),
     }
 }
 

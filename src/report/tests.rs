@@ -346,6 +346,7 @@ fn templates_quote_every_attribute_and_trust_only_markup_of_ours() {
         include_str!("../../templates/reference.html"),
         include_str!("../../templates/derivation.html"),
         include_str!("../../templates/class.html"),
+        include_str!("../../templates/handout.html"),
     ];
     for template in templates {
         assert!(!template.contains("={{"), "an attribute without quotes");

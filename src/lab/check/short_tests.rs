@@ -152,7 +152,7 @@ fn too_little_is_said() {
         "{points: 1, answer: settling_time}",
         "settling_time",
         "there is no kind of field `settling_time`",
-        "known: `transfer_function`, `poles`, `value`, `stability`, `shape`, `nonlinearity`, `prose`, `figure`, `data`",
+        "known: `transfer_function`, `poles`, `value`, `stability`, `shape`, `nonlinearity`, `formula`, `prose`, `figure`, `data`",
     );
     check(
         "{points: 1, answer: value}",
