@@ -1,10 +1,10 @@
 //! A lab with all that marking needs, and the class that answers it.
 
-use polemark::grading::{self, Catalogue, ItemScore, Scorecard};
+use polemark::grading::{self, Catalogue, ItemScore, MemberCard, Scorecard};
 use polemark::lab::{self, Criterion, LabDefinition};
 use polemark::reference::Reference;
 use polemark::source::SourceText;
-use polemark::submission::{self, Folder, Submission};
+use polemark::submission::{self, Folder, Student, Submission};
 use std::fs;
 use std::path::PathBuf;
 use std::sync::LazyLock;
@@ -50,6 +50,13 @@ impl Bench {
         &LETTERS
     }
 
+    /// `variants.yaml`: a lab whose parameters differ from student to student.
+    pub fn variants() -> &'static Self {
+        static VARIANTS: LazyLock<Bench> =
+            LazyLock::new(|| Bench::of("variants.yaml", include_str!("variants.yaml")));
+        &VARIANTS
+    }
+
     fn of(name: &str, text: &str) -> Self {
         let lab = LabDefinition::parse(SourceText::new(name, text));
         Self::new(lab.unwrap_or_else(|errors| panic!("{name}: {errors:#?}")))
@@ -74,6 +81,28 @@ impl Bench {
     /// The marks of what an answer file has below `answers:`.
     pub fn mark(&self, answers: &str) -> Vec<ItemScore> {
         items(self.grade(&self.read(answers)))
+    }
+
+    /// The marks of what these students have below `answers:`, by their own values where those differ.
+    pub fn mark_of(&self, students: &[String], answers: &str) -> Vec<ItemScore> {
+        let Some(rule) = &self.lab.variants else { return self.mark(answers) };
+        let Some((first, others)) = students.split_first() else {
+            let (lab, reference, catalogue) = (&self.lab, &self.reference, &self.catalogue);
+            let submission = self.read(answers);
+            return items(grading::grade_without_numbers(lab, reference, catalogue, &submission, None));
+        };
+        let own = |id: &String| {
+            let variant = rule.of(id).expect("an id");
+            Bench::new(self.lab.with_variant(&variant).expect("a variant"))
+        };
+        let student = |id: &String| Student { id: id.clone(), name: String::new() };
+        let bench = own(first);
+        let submission =
+            Submission { students: students.iter().map(student).collect(), ..bench.read(answers) };
+        let card = |id: &String| MemberCard { id: id.clone(), scorecard: own(id).grade(&submission) };
+        let members: Vec<MemberCard> = others.iter().map(card).collect();
+        let Bench { lab, reference, catalogue } = &bench;
+        items(grading::grade_beside_members(lab, reference, catalogue, &submission, None, &members))
     }
 
     pub fn all_criteria(&self) -> impl Iterator<Item = &Criterion> {

@@ -26,9 +26,10 @@
 //! ````
 //!
 //! What stands before `marks:` is what an answer file has below `answers:`; files are those of `submissions/`. What is in
-//! double quotes is a part of what the student reads beside the mark.
+//! double quotes is a part of what the student reads beside the mark. A first line `students: ME-001, ME-002` says whose it is.
 //!
-//! The embedded lab is asked, or `small.yaml`, `oscillator.yaml`, `tangent.yaml` or `letters.yaml` when the ids are its own.
+//! The embedded lab is asked, or `small.yaml`, `oscillator.yaml`, `tangent.yaml`, `letters.yaml` or `variants.yaml` when the ids
+//! are its own.
 
 use crate::bench::Bench;
 use polemark::grading::ItemScore;
@@ -59,6 +60,7 @@ struct Want {
 #[derive(Debug)]
 struct Example {
     line: usize,
+    students: Vec<String>,
     /// As below `answers:`.
     answers: String,
     wants: Vec<Want>,
@@ -151,7 +153,14 @@ impl<'a> Manual<'a> {
     fn block(&mut self, line: usize, block: &[&str]) {
         let at = block.iter().position(|line| *line == "marks:");
         let at = at.unwrap_or_else(|| panic!("marking.md:{line}: the example has no `marks:`"));
-        let answers: String = block[..at].iter().map(|line| format!("  {line}\n")).collect();
+        let (students, answers) = match block[..at].split_first() {
+            Some((first, rest)) if first.starts_with("students: ") => {
+                (first.trim_start_matches("students: "), rest)
+            }
+            _ => ("", &block[..at]),
+        };
+        let students = students.split(", ").filter(|id| !id.is_empty()).map(str::to_owned).collect();
+        let answers: String = answers.iter().map(|line| format!("  {line}\n")).collect();
         let wants: Vec<Want> = block[at + 1..]
             .iter()
             .map(|row| {
@@ -177,7 +186,7 @@ impl<'a> Manual<'a> {
             })
             .collect();
         assert!(!wants.is_empty(), "marking.md:{line}: the example has no marks");
-        self.push(Example { line, answers, wants, codes_of_all: None });
+        self.push(Example { line, students, answers, wants, codes_of_all: None });
     }
 
     fn table(&mut self, target: &str, explanations: bool, table: &[(usize, Vec<String>)]) {
@@ -213,7 +222,13 @@ impl<'a> Manual<'a> {
                     says: cell("explained by").map(|cell| quoted(cell, '`')).unwrap_or_default(),
                     ..Want::default()
                 };
-                self.push(Example { line: *line, answers, wants: vec![want], codes_of_all: None });
+                self.push(Example {
+                    line: *line,
+                    students: Vec::new(),
+                    answers,
+                    wants: vec![want],
+                    codes_of_all: None,
+                });
                 continue;
             }
             let says: Vec<String> = cell("says").into_iter().map(str::to_owned).collect();
@@ -236,13 +251,19 @@ impl<'a> Manual<'a> {
                     says,
                     explained: None,
                 };
-                Example { line: *line, answers, wants: vec![want], codes_of_all: None }
+                Example { line: *line, students: Vec::new(), answers, wants: vec![want], codes_of_all: None }
             } else {
                 let wants = parts
                     .into_iter()
                     .map(|(item, points)| Want { item, points: Some(points), ..Want::default() })
                     .collect();
-                Example { line: *line, answers, wants, codes_of_all: Some(codes.into_iter().collect()) }
+                Example {
+                    line: *line,
+                    students: Vec::new(),
+                    answers,
+                    wants,
+                    codes_of_all: Some(codes.into_iter().collect()),
+                }
             };
             self.push(example);
         }
@@ -278,7 +299,7 @@ fn read_beside(item: &ItemScore) -> String {
 
 /// How the marks differ from what the example says; the codes that were met.
 fn differences(bench: &Bench, example: &Example, met: &mut BTreeSet<String>) -> Vec<String> {
-    let items = bench.mark(&example.answers);
+    let items = bench.mark_of(&example.students, &example.answers);
     let mut wrong = Vec::new();
     let mut codes = BTreeSet::new();
     for want in &example.wants {
@@ -342,8 +363,14 @@ fn differences(bench: &Bench, example: &Example, met: &mut BTreeSet<String>) -> 
 
 #[test]
 fn the_examples_are_true_and_show_every_rule() {
-    let benches =
-        [Bench::embedded(), Bench::small(), Bench::oscillator(), Bench::tangents(), Bench::letters()];
+    let benches = [
+        Bench::embedded(),
+        Bench::small(),
+        Bench::oscillator(),
+        Bench::tangents(),
+        Bench::letters(),
+        Bench::variants(),
+    ];
     let manual = Manual::read(&benches);
     let mut met = BTreeSet::new();
     let mut report = Vec::new();
