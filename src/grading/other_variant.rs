@@ -63,9 +63,7 @@ pub fn right_fields(lab: &LabDefinition, card: &Scorecard, fields: &BTreeSet<Str
             .get(criterion.id.as_str())
             .is_some_and(|item| item.verdict == Verdict::Right && item.follow_through.is_none())
     };
-    let all_right = |field: &&String| {
-        varied(lab).filter(|criterion| criterion.field == **field).all(|criterion| right(criterion))
-    };
+    let all_right = |field: &&String| varied(lab).filter(|criterion| criterion.field == **field).all(&right);
     fields.iter().filter(all_right).cloned().collect()
 }
 

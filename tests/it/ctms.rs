@@ -93,8 +93,8 @@ fn real(text: &str) -> Printed {
 /// `-29.6+35.3j`, or a real number.
 fn complex(text: &str) -> (Printed, Printed) {
     let Some(body) = text.strip_suffix('j') else { return (real(text), (0.0, 0)) };
-    let signs = body.char_indices().filter(|(_, c)| matches!(c, '+' | '-'));
-    let sign = signs.filter(|(at, _)| *at > 0 && !body[..*at].ends_with(['e', 'E'])).last();
+    let mut signs = body.char_indices().filter(|(_, c)| matches!(c, '+' | '-'));
+    let sign = signs.rfind(|(at, _)| *at > 0 && !body[..*at].ends_with(['e', 'E']));
     let (at, _) = sign.unwrap_or_else(|| panic!("not a complex number: {text}"));
     (real(&body[..at]), real(&body[at..]))
 }

@@ -12,6 +12,9 @@ pub(super) struct Parameters {
     pub derived: DerivedParameters,
 }
 
+/// Values, each with its text as typed.
+type TypedValues = Vec<(String, Rational)>;
+
 impl Checker<'_> {
     pub(super) fn parameters(&mut self, file: &LabFile) -> Option<Parameters> {
         let names: Vec<&str> = file.parameters.0.iter().map(|(name, _)| name.value.as_str()).collect();
@@ -137,7 +140,7 @@ impl Checker<'_> {
         name: &Text,
         p: &ParameterFile,
         value: Option<&Rational>,
-    ) -> Option<(Vec<(String, Rational)>, Vec<(String, Rational)>)> {
+    ) -> Option<(TypedValues, TypedValues)> {
         if p.formula.is_some()
             && let Some(text) = p.accepted.first().or(p.mistaken.first())
         {

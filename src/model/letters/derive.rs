@@ -245,10 +245,9 @@ impl Rest {
         for name in names {
             match at.value(name, 0) {
                 None => {}
+                Some(Exact::Known { rational, pi }) if rational.is_zero() && pi.is_zero() => {}
                 Some(Exact::Known { rational, pi }) if rational.is_zero() => {
-                    if !pi.is_zero() {
-                        turns.insert(name.clone(), pi);
-                    }
+                    turns.insert(name.clone(), pi);
                 }
                 Some(value) => {
                     letters.insert(name.clone(), (letter_of(model, name), value));

@@ -184,10 +184,9 @@ impl Ring {
         while rest.term_count() > 2 {
             let mut best: Option<((u32, usize, Letter), Poly)> = None;
             for letter in rest.letters() {
-                let with = Poly::zero();
-                let holding = rest.terms().filter(|(m, _)| m.power_of(letter) > 0);
-                let with = holding.fold(Ok(with), |sum: Result<Poly, Trouble>, (m, c)| {
-                    Ok(sum?.plus(&Poly::term(c.clone(), m.clone()), budget)?)
+                let mut holding = rest.terms().filter(|(m, _)| m.power_of(letter) > 0);
+                let with = holding.try_fold(Poly::zero(), |sum, (m, c)| {
+                    sum.plus(&Poly::term(c.clone(), m.clone()), budget)
                 })?;
                 if with.term_count() < 2 || with.term_count() == rest.term_count() {
                     continue;

@@ -271,7 +271,7 @@ impl Ring {
         if let Some([(letter, 1)]) = only
             && let Some(Atom::Name { order: known, .. }) = self.atom(*letter)
             && known % order == 0
-            && power % order == 0
+            && power.is_multiple_of(order)
         {
             return (Poly::term(Rational::ONE, Monomial::letter(*letter, power / order)), (Poly::one(), 0));
         }
@@ -365,7 +365,7 @@ impl Ring {
             Atom::Pi => raised(node(NodeKind::Pi), power).into_iter().collect(),
             Atom::Name { name: n, order } => {
                 let whole = raised(name(n), power / order);
-                let root = (power % order > 0).then(|| rooted(name(n), power % order, *order));
+                let root = (!power.is_multiple_of(*order)).then(|| rooted(name(n), power % order, *order));
                 whole.into_iter().chain(root).collect()
             }
             Atom::Root { of, order } => {

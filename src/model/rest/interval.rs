@@ -90,7 +90,7 @@ impl Interval {
         if exponent == Self::point(n) && n.fract() == 0.0 && n.abs() <= 64.0 {
             return self.whole_power(n as i32);
         }
-        if !(self.low > 0.0) {
+        if self.low.is_nan() || self.low <= 0.0 {
             return NOWHERE;
         }
         let corner = |base: f64, exponent: f64| base.powf(exponent);

@@ -33,8 +33,8 @@ pub(super) fn solve_nonlinear(
     let system = System::new(residuals, unknowns, known)?;
     let stated = unknowns.iter().all(|unknown| unknown.near.is_some());
     let candidates: Box<dyn Iterator<Item = Vec<f64>> + '_> = match unknowns {
-        [only] => Box::new(system.changes_of_sign(only.near).chain(system.from_starts(unknowns))),
-        _ => Box::new(system.from_starts(unknowns)),
+        [only] => Box::new(system.changes_of_sign(only.near).chain(system.candidates_from_starts(unknowns))),
+        _ => Box::new(system.candidates_from_starts(unknowns)),
     };
     let mut solutions: Vec<Solution> = Vec::new();
     let mut doubtful: Option<Vec<f64>> = None;
@@ -195,7 +195,10 @@ impl System {
     }
 
     /// Where Newton's method ends, from `near` alone where it is stated of all.
-    fn from_starts<'a>(&'a self, unknowns: &'a [&'a Unknown]) -> impl Iterator<Item = Vec<f64>> + 'a {
+    fn candidates_from_starts<'a>(
+        &'a self,
+        unknowns: &'a [&'a Unknown],
+    ) -> impl Iterator<Item = Vec<f64>> + 'a {
         let stated = unknowns.iter().all(|unknown| unknown.near.is_some());
         let starts = 0..if stated { 1 } else { STARTS };
         starts.filter_map(|nth| {
