@@ -65,10 +65,11 @@ pub(super) fn derive(
         let value = evaluate(&mut ring, &one.formula, &lookup, budget)?;
         relations.push(ring.sum(&name, &value.negated(), budget)?.num);
     }
+    let mut roots = Vec::new();
     for (letter, generator) in ring.generators.iter().enumerate() {
         if let Atom::Root { of, order } = &generator.atom {
             let power = Poly::term(Rational::ONE, Monomial::letter(letter as u16, *order));
-            relations.push(power.minus(of, budget)?);
+            roots.push(power.minus(of, budget)?);
         }
     }
     relations.retain(|relation| !relation.is_zero());
@@ -140,6 +141,7 @@ pub(super) fn derive(
         num_coefficients: unsigned(num_forms),
         den_coefficients: unsigned(den_forms),
         relations,
+        roots,
         forcing: right.iter().map(|entry| ring.collected(entry, budget)).collect::<Result<_, _>>()?,
         matrix: written(&matrix, budget)?,
         function: LetterFunction { ring: ring.clone(), num: short_num, den: short_den },

@@ -2,6 +2,7 @@
 
 mod derive;
 mod determinant;
+mod equality;
 mod form;
 mod order;
 mod places;
@@ -54,8 +55,10 @@ pub struct LetterDerivation {
     pub num_coefficients: Vec<(u32, Expression)>,
     pub den_coefficients: Vec<(u32, Expression)>,
     function: LetterFunction,
-    /// What is 0 among the letters: the equations at rest, roots, parameters that follow from others.
+    /// What is 0 among the letters: the equations at rest, and parameters that follow from others.
     relations: Vec<MultivariatePolynomial>,
+    /// The same of roots that are letters.
+    roots: Vec<MultivariatePolynomial>,
 }
 
 /// A coordinate or input away from 0 at rest.

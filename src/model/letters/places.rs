@@ -22,20 +22,7 @@ impl LetterDerivation {
     pub fn place(&self, nth: usize) -> Option<LetterPlace> {
         let LetterFunction { ring, num, den } = &self.function;
         let mut values = free_values(ring, nth)?;
-        // What is known last is chosen first: a letter that only one relation needs can wait for all others.
-        let mut open: Vec<&Poly> = self.relations.iter().collect();
-        let mut solved: Vec<(Letter, &Poly)> = Vec::new();
-        while !open.is_empty() {
-            let (index, letter) = open.iter().enumerate().find_map(|(index, relation)| {
-                let only_here = |letter: &Letter| {
-                    let elsewhere =
-                        open.iter().enumerate().any(|(i, p)| i != index && p.degree_in(*letter) > 0);
-                    !elsewhere && relation.degree_in(*letter) == 1 && is_free(ring, *letter)
-                };
-                Some((index, relation.letters().into_iter().rev().find(only_here)?))
-            })?;
-            solved.push((letter, open.remove(index)));
-        }
+        let solved = solved(ring, self.relations.iter().chain(&self.roots))?;
         for (letter, relation) in solved.into_iter().rev() {
             let parts = relation.coefficients_of(letter);
             let (rest, slope) = (at(parts.first()?, &values), at(parts.get(1)?, &values));
@@ -93,6 +80,28 @@ impl LetterPlace {
             other => other.clone(),
         }))
     }
+}
+
+/// A letter for each relation, in which it is linear, such that no later relation has that letter; `None` when there are none.
+///
+/// What is known last is chosen first: a letter that only one relation needs can wait for all others.
+pub(super) fn solved<'a>(
+    ring: &Ring,
+    relations: impl IntoIterator<Item = &'a Poly>,
+) -> Option<Vec<(Letter, &'a Poly)>> {
+    let mut open: Vec<&Poly> = relations.into_iter().collect();
+    let mut solved = Vec::new();
+    while !open.is_empty() {
+        let (index, letter) = open.iter().enumerate().find_map(|(index, relation)| {
+            let only_here = |letter: &Letter| {
+                let elsewhere = open.iter().enumerate().any(|(i, p)| i != index && p.degree_in(*letter) > 0);
+                !elsewhere && relation.degree_in(*letter) == 1 && is_free(ring, *letter)
+            };
+            Some((index, relation.letters().into_iter().rev().find(only_here)?))
+        })?;
+        solved.push((letter, open.remove(index)));
+    }
+    Some(solved)
 }
 
 /// No name is written so.
