@@ -10,7 +10,7 @@ use super::own_poles::OwnPoles;
 use super::truth::Truth;
 use super::{Evidence, Verdict, stability};
 use crate::algebra::Rational;
-use crate::lab::{Check, Criterion, Described, LabDefinition, Points, Question, SystemRef};
+use crate::lab::{Check, Criterion, Curve, Described, LabDefinition, Points, Question, SystemRef};
 use crate::lti::TransferFunction;
 use crate::submission::{AnswerValue, stability_name};
 use std::cell::OnceCell;
@@ -84,6 +84,9 @@ impl Follower<'_> {
             return None;
         }
         let (premise, ways) = self.own_function()?;
+        if let Some(why) = self.why_not_followed(ways) {
+            return self.left_to_a_person(&premise, &why);
+        }
         if let Check::Concepts { describes: Some(described), .. } = &self.criterion.check {
             let own = self.claimed(described, &premise, ways.first()?)?;
             return self.resting_on(&premise, own);
@@ -98,6 +101,33 @@ impl Follower<'_> {
             .map(|way| self.grader.criterion(self.criterion, Truth::Own(way)))
             .reduce(|best, next| if next.earned > best.earned { next } else { best })?;
         self.resting_on(&premise, own)
+    }
+
+    /// Why what follows from the own model cannot be told; `None` when it can.
+    fn why_not_followed(&self, ways: &[OwnModel]) -> Option<String> {
+        let kind = match &self.criterion.check {
+            Check::Poles { .. } => {
+                let known = ways.iter().any(|way| way.why_no_poles().is_none());
+                return if known { None } else { ways.first()?.why_no_poles() };
+            }
+            Check::Feature { response, .. } | Check::Shape { response, .. } => *response,
+            Check::Plot { curve: Curve::Response { response, .. }, .. } => *response,
+            Check::Concepts { describes: Some(described), .. } => described.response,
+            _ => return None,
+        };
+        ways.first()?.why_no_response(kind)
+    }
+
+    /// What might follow from the earlier answer, where nobody but a person can tell.
+    fn left_to_a_person(&self, premise: &Premise, why: &str) -> Option<Mark> {
+        let lost_nothing = premise.root.is_none();
+        if self.criterion.follow_through.is_zero() && !lost_nothing || premise.guard != Guard::Passed {
+            return None;
+        }
+        let words =
+            format!("Whether it follows from {} polemark cannot tell: {why}. A person will.", premise.name());
+        let mark = said(self.base, &words);
+        Some(Mark { verdict: Verdict::Unmarked, code: "unmarked", provisional: true, ..mark })
     }
 
     /// The mark of prose by what it claims of the response.

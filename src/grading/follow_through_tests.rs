@@ -92,6 +92,22 @@ const FINAL: &str = "hanging.response.final_value";
 const SHAPE: &str = "hanging.response.shape";
 const DENOMINATOR: &str = "hanging.transfer_function.denominator";
 
+/// Three poles 1e-200 apart: nobody waits for that response, and no points are lost for it without a word.
+#[test]
+fn what_cannot_be_followed_is_left_to_a_person() {
+    let answers = hanging(
+        "-0.06s/((s + 1)*(s + 1 + 1e-200)*(s + 1 + 2e-200))",
+        &[("final_value", "7"), ("shape", "exponential decay"), ("stability", "unstable")],
+    );
+    let card = LAB.check(&answers, &[(FINAL, 0, "unmarked"), (SHAPE, 0, "unmarked")]);
+    for id in [FINAL, SHAPE] {
+        let item = item(&card, id);
+        assert_eq!((item.verdict, item.provisional), (Verdict::Unmarked, true), "{id}");
+        assert!(item.evidence.reason.contains("polemark cannot tell: "), "{id}: {:?}", item.evidence);
+        assert!(item.evidence.reason.ends_with("A person will."), "{id}: {:?}", item.evidence);
+    }
+}
+
 #[test]
 fn what_follows_is_not_charged_again() {
     let answers = hanging(

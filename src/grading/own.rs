@@ -1,7 +1,7 @@
 use super::accepted::Accepted;
 use super::poles::ExpectedPoles;
 use super::transfer_function::without_residue;
-use crate::lti::{InputKind, Pole, Stability, TransferFunction, roots, stability};
+use crate::lti::{InputKind, Pole, ResponseError, RootError, Stability, TransferFunction, roots, stability};
 use crate::reference::ResponseReference;
 use std::cell::OnceCell;
 
@@ -12,9 +12,9 @@ use std::cell::OnceCell;
 pub(super) struct OwnModel {
     pub function: TransferFunction,
     pub stability: Stability,
-    poles: OnceCell<Vec<Pole>>,
-    impulse: OnceCell<Option<ResponseReference>>,
-    step: OnceCell<Option<ResponseReference>>,
+    poles: OnceCell<Result<Vec<Pole>, RootError>>,
+    impulse: OnceCell<Result<ResponseReference, ResponseError>>,
+    step: OnceCell<Result<ResponseReference, ResponseError>>,
 }
 
 impl OwnModel {
@@ -41,18 +41,35 @@ impl OwnModel {
 
     /// `None` when they cannot be computed.
     pub fn poles(&self) -> Option<ExpectedPoles<'_>> {
-        let poles = self.poles.get_or_init(|| roots(&self.function.den).unwrap_or_default());
-        let computed = !poles.is_empty() || self.function.den.degree() == 0;
+        let poles = self.roots().as_ref().ok()?;
         let poles = Accepted { differs: &[], what: poles.as_slice() };
-        computed.then_some(ExpectedPoles { poles, denominator: &self.function.den })
+        Some(ExpectedPoles { poles, denominator: &self.function.den })
     }
 
-    /// `None` when it is improper, or beyond the range of numbers.
+    /// `None` when it cannot be computed: see [`Self::why_no_response`].
     pub fn response(&self, kind: InputKind) -> Option<&ResponseReference> {
+        self.computed(kind).as_ref().ok()
+    }
+
+    /// Why its poles cannot be told, as a clause.
+    pub fn why_no_poles(&self) -> Option<String> {
+        self.roots().as_ref().err().map(RootError::to_string)
+    }
+
+    /// Why its response cannot be told, as a clause.
+    pub fn why_no_response(&self, kind: InputKind) -> Option<String> {
+        self.computed(kind).as_ref().err().map(ResponseError::to_string)
+    }
+
+    fn roots(&self) -> &Result<Vec<Pole>, RootError> {
+        self.poles.get_or_init(|| roots(&self.function.den))
+    }
+
+    fn computed(&self, kind: InputKind) -> &Result<ResponseReference, ResponseError> {
         let cell = match kind {
             InputKind::Impulse => &self.impulse,
             InputKind::Step => &self.step,
         };
-        cell.get_or_init(|| ResponseReference::of(&self.function, kind).ok()).as_ref()
+        cell.get_or_init(|| ResponseReference::of(&self.function, kind))
     }
 }

@@ -14,6 +14,8 @@ const LARGEST_GAP: f64 = 0.25;
 /// Where the curve is still below this part of its largest value in the span, it counts as this large: noise beside an
 /// exact 0 is no error. Points where it is larger must agree by themselves, so that zeros prove nothing.
 const FLOOR: f64 = 0.01;
+/// A limit is never missed by its last bit: this part of it is given.
+const LAST_BIT: f64 = 1e-9;
 /// A point so many times the curve's largest value away is no glitch of an export.
 const GROSS: f64 = 10.0;
 /// A common factor is read off no fewer points than these.
@@ -106,7 +108,9 @@ pub(super) fn judge(
         );
         return with_figure_or(points, expected, series, figure, "plot.too_few_points", reason);
     }
-    if best.first_s > EDGE * demands.span_s || best.last_s < (1.0 - EDGE) * demands.span_s {
+    if best.first_s > EDGE * demands.span_s * (1.0 + LAST_BIT)
+        || best.last_s < (1.0 - EDGE) * demands.span_s * (1.0 - LAST_BIT)
+    {
         let reason = format!(
             "{so_far}, but covers {} s to {} s only; 0 to {} s is needed to see the shape.",
             significant(best.first_s, 4),
@@ -115,7 +119,7 @@ pub(super) fn judge(
         );
         return with_figure_or(points, expected, series, figure, "plot.too_short", reason);
     }
-    if best.widest_gap.1 - best.widest_gap.0 > LARGEST_GAP * demands.span_s * (1.0 + 1e-9) {
+    if best.widest_gap.1 - best.widest_gap.0 > LARGEST_GAP * demands.span_s * (1.0 + LAST_BIT) {
         let reason = format!(
             "{so_far}, but has no point between {} s and {} s; gaps of more than {} s hide the shape.",
             significant(best.widest_gap.0, 4),
@@ -200,7 +204,7 @@ impl<'a> Rows<'a> {
             .iter()
             .enumerate()
             .filter_map(|(index, row)| Some((index, *row.first()?)))
-            .filter(|(_, t)| t.is_finite() && *t >= 0.0 && *t <= target.until_s)
+            .filter(|(_, t)| t.is_finite() && *t >= 0.0 && *t <= target.until_s * (1.0 + LAST_BIT))
             .collect();
         times.sort_by(|a, b| a.1.total_cmp(&b.1));
         let (first_s, last_s) = (times.first()?.1, times.last()?.1);
@@ -289,7 +293,7 @@ impl<'a> Rows<'a> {
             let farthest = rows.iter().max_by(|(a, y), (b, z)| off(a, *y).total_cmp(&off(b, *z)));
             let Some(&(accepted, y)) = farthest else { continue };
             let off = off(&accepted, y);
-            let on_curve = off <= accepted.width + rounding;
+            let on_curve = off <= (accepted.width + rounding) * (1.0 + LAST_BIT);
             comparison.all.count(on_curve);
             if accepted.in_span {
                 comparison.in_span.count(on_curve);
@@ -343,7 +347,7 @@ impl Share {
     }
 
     fn is_enough(self) -> bool {
-        self.on_curve as f64 >= ON_THE_CURVE * self.points as f64
+        self.on_curve as f64 >= ON_THE_CURVE * self.points as f64 * (1.0 - LAST_BIT)
     }
 }
 

@@ -23,7 +23,15 @@ pub(super) fn expected(accepted: &[Accepted<'_, Shape>]) -> String {
     let Some(main) = accepted.first() else { return String::new() };
     let others =
         if accepted.iter().all(|one| one.what == main.what) { String::new() } else { also(accepted) };
-    format!("{}.{others}", shape_name(*main.what))
+    let either = other_word(accepted).map_or_else(String::new, |word| format!(" Or {}.", with_article(word)));
+    format!("{}.{either}{others}", shape_name(*main.what))
+}
+
+/// Another word for the same response as the first.
+fn other_word(accepted: &[Accepted<'_, Shape>]) -> Option<Shape> {
+    let main = accepted.first()?;
+    let same = |one: &&Accepted<'_, Shape>| one.differs == main.differs && one.what != main.what;
+    accepted.iter().find(same).map(|one| *one.what)
 }
 
 /// The same shape is right, any other is wrong; the code tells a kin (same trend, or both oscillating) from the rest.
@@ -33,7 +41,18 @@ pub(super) fn judge(points: Points, accepted: &[Accepted<'_, Shape>], typed: Sha
         return Mark::unmarked(expected, found, "There is no reference to compare this with.");
     };
     if let Some(one) = accepted.iter().find(|one| *one.what == typed) {
-        let reason = format!("The response{} is {}.", one.with(), with_article(typed));
+        let first =
+            accepted.iter().find(|other| other.differs == one.differs).map_or(typed, |other| *other.what);
+        let reason = if first == typed {
+            format!("The response{} is {}.", one.with(), with_article(typed))
+        } else {
+            format!(
+                "The response{} may be called {} as well as {}: it lies where the two meet.",
+                one.with(),
+                with_article(typed),
+                with_article(first)
+            )
+        };
         return Mark::right(points, Evidence { expected, found, reason, ..Evidence::default() });
     }
     let (code, half) = if trend(main) == trend(typed) {
@@ -88,5 +107,17 @@ mod tests {
             (ExponentialGrowth, GrowingOscillation, 0, "shape.kin"),
             (ExponentialGrowth, ExponentialDecay, 0, "shape.other"),
         ]);
+    }
+
+    #[test]
+    fn where_two_shapes_meet_either_is_right() {
+        let accepted = [&ExponentialDecay, &DecayingOscillation].map(|what| Accepted { differs: &[], what });
+        for (typed, points) in [(ExponentialDecay, 100), (DecayingOscillation, 100), (Constant, 0)] {
+            let mark = judge(Points(100), &accepted, typed);
+            assert_eq!(mark.earned, Points(points), "{typed:?}");
+            assert!(mark.evidence.expected.ends_with(" Or a decaying oscillation."), "{mark:?}");
+        }
+        let mark = judge(Points(100), &accepted, DecayingOscillation);
+        assert!(mark.evidence.reason.contains("where the two meet"), "{mark:?}");
     }
 }

@@ -48,7 +48,7 @@ impl<'a> Truth<'a> {
         }
     }
 
-    /// The shapes of the responses, then what one sees of them as well for a while.
+    /// The shapes of the responses, then what one sees of them as well for a while or where they lie at the line between two.
     pub fn shapes(self, of: &SystemRef, kind: InputKind) -> Vec<Accepted<'a, Shape>> {
         let responses = self.responses(of, kind);
         let in_the_end = responses.iter().map(|one| one.pick(|known| &known.features.shape));
@@ -56,7 +56,11 @@ impl<'a> Truth<'a> {
             .iter()
             .filter(|one| swings_at_first(one.what))
             .map(|one| one.pick(|_| &Shape::GrowingOscillation));
-        in_the_end.chain(at_first).collect()
+        let at_the_line =
+            responses.iter().filter(|one| one.what.features.borderline.shape.is_some()).map(|one| {
+                one.pick(|known| known.features.borderline.shape.as_ref().unwrap_or(&known.features.shape))
+            });
+        in_the_end.chain(at_first).chain(at_the_line).collect()
     }
 
     /// How long a curve is asked for where `asked_s` is enough for the reference, s: no longer than an own model takes to show

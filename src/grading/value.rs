@@ -60,6 +60,39 @@ fn truth(features: &Features, kind: FeatureKind) -> Truth {
     }
 }
 
+/// What is read off as well where the response lies at a line that the definition draws, and why; in the unit of the feature.
+fn at_the_line(features: &Features, kind: FeatureKind) -> (Vec<Expected>, &'static str) {
+    let known = &features.borderline;
+    let only = |value: f64| (value, value);
+    let values: Vec<(f64, f64)> = match kind {
+        FeatureKind::Peak => known.peaks.iter().map(|extremum| only(extremum.value)).collect(),
+        FeatureKind::PeakTimeS => known.peaks.iter().map(|extremum| only(extremum.time_s)).collect(),
+        FeatureKind::SettlingTime2PercentS => known.settling_times_2_percent_s.clone(),
+        FeatureKind::SettlingTime5PercentS => known.settling_times_5_percent_s.clone(),
+        FeatureKind::RiseTime1090S => known.rise_time_10_90_s.into_iter().map(only).collect(),
+        _ => Vec::new(),
+    };
+    let why = match kind {
+        FeatureKind::Peak | FeatureKind::PeakTimeS => "another swing is as high to within 0.1 %",
+        FeatureKind::RiseTime1090S => "the response starts at 10 % of its final value to within 0.1 %",
+        _ => "a swing touches the edge of the band to within 1 % of it",
+    };
+    let expected = |(from, to): (f64, f64)| {
+        Expected::computed((from + to) / 2.0, (to - from) / 2.0 + COMPUTED_TO * to.abs())
+    };
+    (values.into_iter().filter_map(expected).collect(), why)
+}
+
+/// Whether it may also be said that there is none.
+fn hardly_any(features: &Features, kind: FeatureKind) -> bool {
+    use FeatureKind::*;
+    match kind {
+        Peak | PeakTimeS | RiseTime0100S => features.borderline.hardly_a_peak,
+        RiseTime1090S => features.borderline.rise_time_10_90_s.is_some(),
+        _ => false,
+    }
+}
+
 /// What textbooks also give under the same name, in words and in the unit of the feature.
 fn other_conventions(features: &Features, kind: FeatureKind) -> Vec<(&'static str, Expected)> {
     use FeatureKind::*;
@@ -116,6 +149,19 @@ impl<'a> Question<'a> {
         }
     }
 
+    /// ` Or 3.2 s, since …`, or nothing.
+    fn other_readings(&self, features: &Features) -> String {
+        let (values, why) = at_the_line(features, self.feature.kind);
+        let shown = values.iter().map(|value| self.shown(&value.in_unit(&self.ratio)));
+        // Some of many swings stand for all.
+        let shown: Vec<String> = shown.take(3).collect();
+        match (shown.as_slice(), hardly_any(features, self.feature.kind)) {
+            ([], false) => String::new(),
+            ([], true) => " Or none, for it is less than 0.1 % of the final value.".to_owned(),
+            (values, _) => format!(" Or {}, since {why}.", values.join(" or ")),
+        }
+    }
+
     fn unit(&self) -> &str {
         self.feature.unit.as_ref().map_or("", Unit::symbol)
     }
@@ -149,7 +195,8 @@ pub(super) fn expected(
                 _ => false,
             };
             let others = if accepted.iter().all(same) { String::new() } else { also(accepted) };
-            format!("{own}; {}.{others}", expected.accepted_in_words(tolerance, question.unit()))
+            let either = question.other_readings(main.what);
+            format!("{own}; {}.{either}{others}", expected.accepted_in_words(tolerance, question.unit()))
         }
         Truth::PlusInfinity => "It grows without bound, to +∞.".to_owned(),
         Truth::MinusInfinity => "It grows without bound, to -∞.".to_owned(),
@@ -232,6 +279,9 @@ impl Question<'_> {
             (Truth::Number(want), FinalValue::Number(have, unit)) => {
                 self.compare_numbers(&want, one, have, unit.as_ref())
             }
+            (Truth::Number(_), FinalValue::Unbounded) if hardly_any(one.what, self.feature.kind) => {
+                Outcome::new("right", "There is hardly any such value, and one may say that there is none.")
+            }
             (Truth::Number(want), _) => {
                 let reason =
                     format!("The value is a number, {}: it does not grow without bound.", self.shown(&want));
@@ -258,6 +308,9 @@ impl Question<'_> {
             (Truth::NoLimit, _) => {
                 Outcome::new("value.sign", "The response swings for ever and goes to neither side.")
             }
+            (Truth::None, FinalValue::Number(have, unit)) => self
+                .at_the_line(one, have, unit.as_ref())
+                .unwrap_or_else(|| Outcome::new("value.none", "The response has no such value.")),
             (Truth::None, _) => Outcome::new("value.none", "The response has no such value."),
         }
     }
@@ -274,6 +327,23 @@ impl Question<'_> {
         }
         let found = [asked].into_iter().chain(&self.feature.also).find_map(|unit| typed.in_unit(unit));
         found.map_or(Scale::OtherQuantity, |ratio| Scale::Known(vec![ratio]))
+    }
+
+    /// Right where another reading is as good.
+    fn at_the_line(
+        &self,
+        one: &Accepted<'_, Features>,
+        have: &Decimal,
+        unit: Option<&Unit>,
+    ) -> Option<Outcome> {
+        let (values, why) = at_the_line(one.what, self.feature.kind);
+        let Scale::Known(ratios) = self.scale(unit) else { return None };
+        let value = values
+            .iter()
+            .map(|value| value.in_unit(&self.ratio))
+            .find(|value| ratios.iter().any(|ratio| self.closeness(value, have, ratio).accepted()))?;
+        let (shown, with) = (self.shown(&value), one.with());
+        Some(Outcome::new("right", format!("It is {shown}{with}, which is as good a reading, since {why}.")))
     }
 
     fn compare_numbers(
@@ -305,6 +375,9 @@ impl Question<'_> {
                 format!("{typed} is {}: it is {how}.", self.converted(have, ratio))
             };
             return Outcome::new("right", reason);
+        }
+        if let Some(outcome) = self.at_the_line(one, have, unit) {
+            return outcome;
         }
         let is_nothing = shown(to_f64(&want.value), self.tolerance) == "0";
         let negative = Expected { value: -want.value.clone(), error_bound: want.error_bound.clone() };
@@ -452,6 +525,54 @@ mod tests {
             assert_eq!(mark.code, *code, "{feature:?} {limit:?} {answer:?}: {}", mark.evidence.reason);
             assert_eq!(mark.earned, if *code == "right" { Points(50) } else { Points::ZERO });
         }
+    }
+
+    /// What is typed of the step response of `num` over `den`; `None`: that there is no such value.
+    #[track_caller]
+    fn check_step(num: &str, den: &str, kind: FeatureKind, rows: &[(Option<&str>, &str)]) {
+        let polynomial =
+            |text: &str| Polynomial::new(text.split(' ').map(|c| parse_decimal(c).unwrap()).collect());
+        let g = TransferFunction::new(polynomial(num), polynomial(den)).unwrap();
+        let features = Features::of(&Response::new(&g, InputKind::Step).unwrap());
+        let accepted = [Accepted { differs: &[], what: &features }];
+        for (text, code) in rows {
+            let answer = text.map_or(FinalValue::Unbounded, |text| FinalValue::Number(typed(text), None));
+            let mark =
+                judge(Points(50), &accepted, &asked(kind), &tolerance("0.001", "0.01", Some(2)), &answer);
+            assert_eq!(mark.code, *code, "{den}: {kind:?} {text:?}: {:?}", mark.evidence);
+        }
+    }
+
+    /// Where a definition draws a line, a right answer on the other side of it is right.
+    #[test]
+    fn at_a_line_both_readings_are_right() {
+        use FeatureKind::*;
+        // Overshoot 4.999 % and 5.001 %: settled to 5 % at the first passage (2.85 s) or after the swing (4.7 s).
+        for zeta2 in ["1.3804", "1.38"] {
+            let rows = [
+                (Some("2.86"), "right"),
+                (Some("4.34"), "right"),
+                (Some("4.48"), "right"),
+                (Some("3.7"), "value.differs"),
+            ];
+            check_step("1", &format!("1 {zeta2} 1"), SettlingTime5PercentS, &rows);
+        }
+        check_step("1", "1 1.2 1", SettlingTime5PercentS, &[(Some("2.37"), "value.differs")]);
+        // ζ = 0.95: an overshoot of 0.007 %.
+        check_step(
+            "1",
+            "1 1.9 1",
+            Peak,
+            &[(None, "right"), (Some("1"), "right"), (Some("1.1"), "value.differs")],
+        );
+        check_step("1", "1 1.9 1", RiseTime0100S, &[(None, "right"), (Some("3"), "value.differs")]);
+        check_step("1", "1 0.4 1", Peak, &[(None, "value.number_given_unbounded"), (Some("1.53"), "right")]);
+        // It starts at 10 %: ln 9 s from there.
+        for start in ["0.09999", "0.1", "0.10001"] {
+            let rows = [(None, "right"), (Some("2.2"), "right")];
+            check_step(&format!("{start} 1"), "1 1", RiseTime1090S, &rows);
+        }
+        check_step("0.2 1", "1 1", RiseTime1090S, &[(None, "right"), (Some("2.08"), "value.none")]);
     }
 
     #[test]

@@ -130,17 +130,49 @@ pub struct Features {
     pub rise_time_10_90_s: Option<f64>,
     /// From 0 to the first passage of the final value, for a step response that reaches it.
     pub rise_time_0_100_s: Option<f64>,
+    /// What is read off as well, where the response lies at one of the lines these definitions draw.
+    pub borderline: Borderline,
     /// G(0) of the transfer function behind the response, where whoever computed it has put it; `None` at a pole at the origin.
     pub dc_gain: Option<f64>,
 }
 
+/// What else is a right reading of a response at the line between two.
+///
+/// A swing of 1.001 % is visible by definition and one of 0.999 % is not: nobody is to be wrong for seeing it the other way.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Borderline {
+    /// The other shape, where what decides is within a tenth of its limit, or two terms outlast the others that hardly differ.
+    pub shape: Option<Shape>,
+    /// Extrema (the start among them) as high as the peak to within a thousandth, in time order.
+    pub peaks: Vec<Extremum>,
+    /// The peak, or the overshoot, is less than a thousandth of the final value: one may say that there is none.
+    pub hardly_a_peak: bool,
+    /// Where a swing touches the band to within a hundredth of it: the time of settling to 2 % and to 5 % without that swing,
+    /// and with it, (from, to).
+    pub settling_times_2_percent_s: Vec<(f64, f64)>,
+    pub settling_times_5_percent_s: Vec<(f64, f64)>,
+    /// From the start, for a step response that starts at 10 % of its final value to within a thousandth.
+    pub rise_time_10_90_s: Option<f64>,
+}
+
 /// At most so many extrema are listed.
 const EXTREMA_LISTED: usize = 8;
+/// What a line is given so that nothing hangs on the last bits.
+const LAST_BITS: f64 = 1e-9;
+/// Of the peak, or of the final value: nearer than this nothing is told apart.
+const NEARLY: f64 = 1e-3;
+/// Of the band within which a response has settled.
+const NEAR_THE_BAND: f64 = 0.01;
+/// Of the limit from which a swing is visible.
+const NEARLY_VISIBLE: f64 = 0.1;
+/// A pair changes its amplitude by less than six millionths in a swing: no eye tells that from none.
+const SUSTAINED: f64 = 1e-6;
 
 impl Features {
     pub fn of(response: &Response) -> Self {
         let extrema = first_extrema(response);
-        let (shape, final_value) = Outlook::of(response).judged(response, &extrema);
+        let outlook = Outlook::of(response);
+        let (shape, final_value) = outlook.judged(response, &extrema, 1.0);
         let bounded = matches!(final_value, Limit::Value(_) | Limit::Oscillates);
         let enough_s =
             if final_value == Limit::Oscillates { 4.0 * response.horizon_s() } else { f64::INFINITY };
@@ -158,12 +190,34 @@ impl Features {
         let step_to = final_value.value().filter(|&v| response.kind == InputKind::Step && v != 0.0);
         let reached =
             |share: f64| step_to.and_then(|value| settling::first_crossing(response, share * value));
-        let starts_low = step_to.is_some_and(|value| response.at(0.0) / value < 0.1);
+        let starts_at = step_to.map_or(1.0, |value| response.at(0.0) / value);
+        let starts_low = starts_at < 0.1 * (1.0 - LAST_BITS);
+        let peak = if bounded { settling::largest_excursion(response, 0.0, enough_s) } else { None };
+        let overshoot = step_to.map(|value| overshoot_percent(response, value));
+        let other_times = |share: f64| {
+            let [early, late] = [1.0 + NEAR_THE_BAND, 1.0 - NEAR_THE_BAND].map(|part| settled(share * part));
+            let touches = |(early, late): &(f64, f64)| late - early > 2.0 * NEAR_THE_BAND * late;
+            let Some((early, late)) = early.zip(late).filter(touches) else { return Vec::new() };
+            let turns = extrema.iter().map(|extremum| extremum.time_s);
+            let turn = turns.filter(|turn| (early..=late).contains(turn)).fold(early, f64::max);
+            vec![(early, early), (if turn > early { turn } else { late }, late)]
+        };
+        let final_size = final_value.value().map_or(0.0, f64::abs);
+        let borderline = Borderline {
+            shape: outlook.other_shape(response, &extrema, shape),
+            peaks: peak.map_or_else(Vec::new, |peak| as_high(response, &extrema, peak)),
+            hardly_a_peak: peak.is_some_and(|peak| (peak.value.abs() / final_size - 1.0).abs() <= NEARLY)
+                || overshoot.is_some_and(|percent| percent > 0.0 && percent <= 100.0 * NEARLY),
+            settling_times_2_percent_s: other_times(0.02),
+            settling_times_5_percent_s: other_times(0.05),
+            rise_time_10_90_s: reached(0.9).filter(|_| (starts_at / 0.1 - 1.0).abs() <= NEARLY),
+        };
         Self {
             initial_value: response.at(0.0),
             final_value,
             shape,
-            peak: if bounded { settling::largest_excursion(response, 0.0, enough_s) } else { None },
+            peak,
+            borderline,
             extrema,
             period_s: pair.map(|mode| TAU / mode.im),
             damping_ratio,
@@ -171,7 +225,7 @@ impl Features {
             slowest_time_constant_s: decaying.reduce(f64::max),
             settling_time_2_percent_s: settled(0.02),
             settling_time_5_percent_s: settled(0.05),
-            overshoot_percent: step_to.map(|value| overshoot_percent(response, value)),
+            overshoot_percent: overshoot,
             rise_time_10_90_s: reached(0.9)
                 .zip(reached(0.1))
                 .filter(|_| starts_low)
@@ -266,13 +320,18 @@ impl<'a> Outlook<'a> {
         Self { real: largest(true), pair: largest(false) }
     }
 
-    fn judged(&self, response: &Response, extrema: &[Extremum]) -> (Shape, Limit) {
+    fn leader(&self) -> Option<&'a Mode> {
         let size = |mode: Option<&Mode>| mode.map_or(0.0, Mode::amplitude);
-        let Some(leader) = (if size(self.pair) > size(self.real) { self.pair } else { self.real }) else {
+        if size(self.pair) > size(self.real) { self.pair } else { self.real }
+    }
+
+    /// `demand`: so many times larger than usual a swing must be to be visible.
+    fn judged(&self, response: &Response, extrema: &[Extremum], demand: f64) -> (Shape, Limit) {
+        let Some(leader) = self.leader() else {
             return (Shape::Constant, Limit::Value(response.constant()));
         };
         if leader.re < 0.0 {
-            let swings = leads_visibly(leader, response) || swings_visibly(response, extrema);
+            let swings = leads_visibly(leader, response, demand) || swings_visibly(response, extrema, demand);
             let shape = if swings { Shape::DecayingOscillation } else { Shape::ExponentialDecay };
             return (shape, Limit::Value(response.constant()));
         }
@@ -289,29 +348,66 @@ impl<'a> Outlook<'a> {
     }
 }
 
+impl Outlook<'_> {
+    /// Another word for the shape that is as right as `shape`.
+    fn other_shape(&self, response: &Response, extrema: &[Extremum], shape: Shape) -> Option<Shape> {
+        let leader = self.leader()?;
+        if !leader.is_real() && leader.re != 0.0 && leader.re.abs() <= SUSTAINED * leader.im {
+            return Some(Shape::SustainedOscillation);
+        }
+        if leader.re < 0.0 {
+            let demands = [1.0 - NEARLY_VISIBLE, 1.0 + NEARLY_VISIBLE];
+            let words = demands.map(|demand| self.judged(response, extrema, demand).0);
+            return words.into_iter().find(|word| *word != shape);
+        }
+        // A term of the other kind that grows as fast, or nearly.
+        let rival = |mode: &&Mode| {
+            let gap = leader.re - mode.re;
+            let ratio = mode.amplitude() / leader.amplitude();
+            let alike = if gap == 0.0 { (ratio - 1.0).abs() <= NEARLY_VISIBLE } else { ratio > 0.0 };
+            mode.is_real() != leader.is_real()
+                && mode.power == leader.power
+                && gap >= 0.0
+                && gap <= LAST_BITS * leader.speed().max(mode.speed())
+                && alike
+        };
+        let rival = response.moving().find(rival)?;
+        let other =
+            Outlook { real: Some(rival).filter(|r| r.is_real()), pair: Some(rival).filter(|r| !r.is_real()) };
+        Some(other.judged(response, extrema, 1.0).0).filter(|word| *word != shape)
+    }
+}
+
+/// The start and the first extrema where they are as high as the peak.
+fn as_high(response: &Response, extrema: &[Extremum], peak: Extremum) -> Vec<Extremum> {
+    let start = Extremum { time_s: 0.0, value: response.at(0.0) };
+    let near = |other: &&Extremum| **other != peak && other.value.abs() >= (1.0 - NEARLY) * peak.value.abs();
+    std::iter::once(&start).chain(extrema).filter(near).copied().collect()
+}
+
 /// A pair that decays by this in every radian has died before it swings back: e^(−10π) is 2e-14.
 const DEAD_BEFORE_IT_SWINGS: f64 = 10.0;
 
 /// Whether a decaying response ends in the oscillation of a pair that has at least 1 % of the largest amplitude.
-fn leads_visibly(leader: &Mode, response: &Response) -> bool {
-    if leader.is_real() || -leader.re > DEAD_BEFORE_IT_SWINGS * leader.im {
+fn leads_visibly(leader: &Mode, response: &Response, demand: f64) -> bool {
+    if leader.is_real() || -leader.re * demand > DEAD_BEFORE_IT_SWINGS * leader.im {
         return false;
     }
     let largest =
         response.present().filter(|mode| !mode.is_constant()).map(Mode::amplitude).fold(0.0, f64::max);
     let largest = response.pieces().map_or(largest, |pieces| pieces.highest().min(largest));
-    leader.amplitude() >= 0.01 * largest
+    leader.amplitude() >= 0.01 * demand * largest
 }
 
 /// Whether a pair makes the curve go up and down by at least 5 % of its range, twice in a row.
 ///
 /// A slow real term may outlast an oscillation that everyone sees.
-fn swings_visibly(response: &Response, extrema: &[Extremum]) -> bool {
+fn swings_visibly(response: &Response, extrema: &[Extremum], demand: f64) -> bool {
     let values = || std::iter::once(response.at(0.0)).chain(extrema.iter().map(|e| e.value));
     let (low, high) =
         values().fold((response.constant(), response.constant()), |(low, high), y| (low.min(y), high.max(y)));
-    let swings =
-        extrema.windows(2).filter(|pair| (pair[1].value - pair[0].value).abs() >= 0.05 * (high - low));
+    let least = 0.05 * demand * (high - low);
+    let swings = extrema.windows(2).filter(|pair| (pair[1].value - pair[0].value).abs() >= least);
     response.present().any(|mode| !mode.is_real()) && swings.count() >= 2
 }
 
@@ -623,6 +719,102 @@ mod tests {
         let ringing = features(("4e14", "1 2e-2 4e14"), Step);
         assert!((ringing.settling_time_5_percent_s.unwrap() / (100.0 * 20f64.ln()) - 1.0).abs() < 1e-6);
         assert!((ringing.overshoot_percent.unwrap() - 100.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn at_the_line_between_two_shapes_either_is_right() {
+        use Shape::*;
+        #[track_caller]
+        fn check(what: &str, g: (&str, &str), kind: InputKind, shape: Shape, other: Option<Shape>) {
+            let found = features(g, kind);
+            assert_eq!((found.shape, found.borderline.shape), (shape, other), "{what}");
+        }
+        check("plainly swings", ("4", "1 0.8 4"), Step, DecayingOscillation, None);
+        check("plainly does not", ("10", "1 7 10"), Step, ExponentialDecay, None);
+        // e^(−10t) + a e^(−t) cos 10t for a about 0.01.
+        for (share, shape, other) in [
+            ("0.00999", ExponentialDecay, Some(DecayingOscillation)),
+            ("0.01001", DecayingOscillation, Some(ExponentialDecay)),
+            ("0.005", ExponentialDecay, None),
+            ("0.02", DecayingOscillation, None),
+        ] {
+            let a = crate::lti::tests::polynomial(share);
+            let pair = crate::lti::tests::polynomial("1 2 101");
+            let num = &pair
+                + &(&a * &(&crate::lti::tests::polynomial("1 1") * &crate::lti::tests::polynomial("1 10")));
+            let den = &pair * &crate::lti::tests::polynomial("1 10");
+            let g = TransferFunction::new(num, den).unwrap();
+            let found = Features::of(&Response::new(&g, Impulse).unwrap());
+            assert_eq!((found.shape, found.borderline.shape), (shape, other), "{share}");
+        }
+        // e^t + a e^t cos t for a about 1: (s² − 2s + 2 + a (s − 1)²) / (s − 1)(s² − 2s + 2).
+        let den = "1 -3 4 -2";
+        check("as large", ("2 -4 3", den), Impulse, ExponentialGrowth, Some(GrowingOscillation));
+        check(
+            "a little less",
+            ("1.999 -3.998 2.999", den),
+            Impulse,
+            ExponentialGrowth,
+            Some(GrowingOscillation),
+        );
+        check(
+            "a little more",
+            ("2.001 -4.002 3.001", den),
+            Impulse,
+            GrowingOscillation,
+            Some(ExponentialGrowth),
+        );
+        check("half", ("1.5 -3 2.5", den), Impulse, ExponentialGrowth, None);
+        check("twice", ("3 -6 4", den), Impulse, GrowingOscillation, None);
+        // A pair on the axis, and 1e-15 to its sides: decided exactly, but nobody sees the difference.
+        check("on the axis", ("1", "1 0 1"), Impulse, SustainedOscillation, None);
+        check("left", ("1", "1 2e-15 1"), Impulse, DecayingOscillation, Some(SustainedOscillation));
+        check("right", ("1", "1 -2e-15 1"), Impulse, GrowingOscillation, Some(SustainedOscillation));
+        check("seen", ("1", "1 1e-3 1"), Impulse, DecayingOscillation, None);
+    }
+
+    #[test]
+    fn swings_as_high_as_the_peak_are_told() {
+        // sin t + sin 3t: as high at every extremum but the small ones between.
+        let found = features(("4 0 12", "1 0 10 0 9"), Impulse);
+        let peak = found.peak.unwrap();
+        assert!(peak.time_s < 1.0, "the first counts: {peak:?}");
+        assert!(found.borderline.peaks.iter().any(|e| (e.value + peak.value).abs() < 1e-12), "{found:?}");
+        assert_eq!(features(HANGING, Impulse).borderline.peaks, []);
+    }
+
+    #[test]
+    fn a_swing_that_touches_the_band_gives_two_times() {
+        // ζ with an overshoot of 5 %: ln 20 / √(π² + ln² 20) = 0.690106730559822…
+        for (zeta2, either) in
+            [("1.3802134611", true), ("1.38", true), ("1.382", true), ("1.2", false), ("1.5", false)]
+        {
+            let found = features(("1", &format!("1 {zeta2} 1")), Step);
+            assert_eq!(!found.borderline.settling_times_5_percent_s.is_empty(), either, "{zeta2}");
+        }
+    }
+
+    #[test]
+    fn a_step_that_hardly_overshoots() {
+        for (zeta2, hardly) in [("1.4", false), ("1.9", true), ("1.95", true), ("2", false), ("2.1", false)] {
+            let found = features(("1", &format!("1 {zeta2} 1")), Step);
+            assert_eq!(found.borderline.hardly_a_peak, hardly, "{zeta2}");
+        }
+    }
+
+    #[test]
+    fn a_step_that_starts_at_a_tenth() {
+        for (start, low, either) in [
+            ("0.09995", true, true),
+            ("0.1", false, true),
+            ("0.10005", false, true),
+            ("0.05", true, false),
+            ("0.2", false, false),
+        ] {
+            let found = features((&format!("{start} 1"), "1 1"), Step);
+            let known = (found.rise_time_10_90_s.is_some(), found.borderline.rise_time_10_90_s.is_some());
+            assert_eq!(known, (low, either), "{start}");
+        }
     }
 
     #[test]

@@ -17,7 +17,7 @@ mod state_space;
 mod transfer_function;
 mod wide;
 
-pub use features::{Extremum, Features, Limit, Shape};
+pub use features::{Borderline, Extremum, Features, Limit, Shape};
 pub use matrix_exponential::{ExponentialResponse, matrix_exponential_response};
 pub use poles::{Pole, RootError, roots};
 pub use response::{InputKind, Mode, Response, ResponseError};

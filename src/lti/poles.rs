@@ -40,7 +40,7 @@ const DEGREE_LIMIT: usize = 60;
 /// Source: Yun's square-free split for the multiplicities, then certified Ehrlich–Aberth on each factor.
 pub fn roots(p: &Polynomial) -> Result<Vec<Pole>, RootError> {
     let mut poles = Vec::new();
-    for root in isolated_roots(p)? {
+    for root in isolated_roots_to(p, PRECISION_BITS)? {
         poles.push(root.pole);
         if root.pole.im != 0.0 {
             poles.push(Pole { im: -root.pole.im, ..root.pole });
@@ -55,12 +55,7 @@ pub(super) struct IsolatedRoot {
     pub pole: Pole,
 }
 
-/// As [`roots`], without the lower half-plane.
-pub(super) fn isolated_roots(p: &Polynomial) -> Result<Vec<IsolatedRoot>, RootError> {
-    isolated_roots_to(p, PRECISION_BITS)
-}
-
-/// The same, the centers to within 2^−`precision_bits` of each part.
+/// As [`roots`], without the lower half-plane, the centers to within 2^−`precision_bits` of each part.
 pub(super) fn isolated_roots_to(p: &Polynomial, precision_bits: i64) -> Result<Vec<IsolatedRoot>, RootError> {
     if p.is_zero() {
         return Err(RootError::ZeroPolynomial);
@@ -84,7 +79,10 @@ pub(super) fn isolated_roots_to(p: &Polynomial, precision_bits: i64) -> Result<V
                 let coefficients = part.primitive();
                 for disc in simple_roots(&coefficients, even, precision_bits)? {
                     let pole = rounded(&disc, multiplicity, &coefficients)?;
-                    found.push(IsolatedRoot { center: disc.center, pole });
+                    let is_root = pole.error_bound == 0.0;
+                    let center =
+                        if is_root { Dyadic::exactly(Complex64::new(pole.re, pole.im)) } else { disc.center };
+                    found.push(IsolatedRoot { center, pole });
                 }
             }
         }

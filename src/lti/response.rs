@@ -2,10 +2,12 @@ use super::dyadic::taylor;
 use super::extrema::ExtremumScan;
 use super::many_digits::many_digits;
 use super::pieces::Pieces;
-use super::poles::isolated_roots;
+use super::poles::isolated_roots_to;
+use super::simple_roots::PRECISION_BITS;
 use super::wide::Wide;
 use super::{Pole, RootError, TransferFunction, horizon, sampling};
 use crate::algebra::{Polynomial, to_f64};
+use dashu_int::IBig;
 use num_complex::Complex64;
 use std::sync::Arc;
 
@@ -304,23 +306,55 @@ fn meet(poles: &[Pole]) -> bool {
     poles.iter().enumerate().any(|(i, a)| poles[..i].iter().any(|b| near(a, b)))
 }
 
+/// A numerator must keep this many of a pole's bits where that lies beside a zero.
+const KEPT_BITS: i64 = 44;
+/// A zero this close to a pole is not told from it.
+const MOST_BITS: i64 = 4_000;
+
 /// The terms of `g`, strictly proper and in lowest terms.
+///
+/// Where a zero nearly cancels a pole, the pole is found to as many bits as tell them apart: how small a residue is, and
+/// on which side of 0, is never left to rounding.
 fn partial_fractions(g: &TransferFunction) -> Result<(Vec<Mode>, Vec<Pole>), ResponseError> {
     // Both over one common denominator, so that their quotient stays what it is.
     let both = [g.den.coefficients(), g.num.coefficients()].concat();
     let integers = Polynomial::new(both).primitive();
     let (den, num) = integers.split_at(g.den.degree() + 1);
-    let mut modes = Vec::with_capacity(g.den.degree());
-    let mut poles = Vec::with_capacity(g.den.degree());
-    for root in isolated_roots(&g.den)? {
+    let mut bits = PRECISION_BITS;
+    loop {
+        if let Some(found) = terms_to(&g.den, den, num, bits)? {
+            return Ok(found);
+        }
+        bits *= 2;
+        if bits > MOST_BITS {
+            return Err(ResponseError::OutOfRange);
+        }
+    }
+}
+
+/// With poles to within 2^−`bits` of each part; `None` where a zero is too close to one of them for that.
+fn terms_to(
+    p: &Polynomial,
+    den: &[IBig],
+    num: &[IBig],
+    bits: i64,
+) -> Result<Option<(Vec<Mode>, Vec<Pole>)>, ResponseError> {
+    let mut modes = Vec::with_capacity(p.degree());
+    let mut poles = Vec::with_capacity(p.degree());
+    for root in isolated_roots_to(p, bits)? {
         poles.push(root.pole);
         if root.pole.im != 0.0 {
             poles.push(Pole { im: -root.pole.im, ..root.pole });
         }
         let m = root.pole.multiplicity;
-        let above = taylor(num, &root.center, m);
+        let above = taylor(num, &root.center, m + 1);
+        // What the numerator changes by from the center to the pole itself.
+        let lost = (above[1] * root.center.to_wide()).abs().shifted(KEPT_BITS - bits);
+        if root.pole.error_bound > 0.0 && above[0].cmp_abs(lost).is_lt() {
+            return Ok(None);
+        }
         let below = taylor(den, &root.center, 2 * m);
-        for (k, value) in quotient_series(&above, &below[m..]).into_iter().enumerate() {
+        for (k, value) in quotient_series(&above[..m], &below[m..]).into_iter().enumerate() {
             if !value.is_zero() {
                 let c = value.to_complex();
                 let coefficient_im = if root.pole.im == 0.0 { 0.0 } else { c.im };
@@ -329,7 +363,7 @@ fn partial_fractions(g: &TransferFunction) -> Result<(Vec<Mode>, Vec<Pole>), Res
             }
         }
     }
-    Ok((modes, poles))
+    Ok(Some((modes, poles)))
 }
 
 /// The power series `above` / `below`; what is only rounding is zero.
@@ -416,6 +450,30 @@ mod tests {
         }
         // A step cancels against a zero at the origin.
         assert_eq!(Response::new(&tf("1 0", "1 1"), Step).unwrap().modes().len(), 1);
+    }
+
+    /// √2 is 1.41421356237309504880168872420969807856967187537694807317667973799…
+    #[test]
+    fn a_zero_beside_a_pole_leaves_a_residue_of_the_right_sign() {
+        const ROOT: &str = "1.41421356237309504880168872420969807856967187537694807317667973799";
+        for places in [8, 15, 18, 20, 25, 30, 40, 60] {
+            let below = &ROOT[..places + 2];
+            let above = format!("{}9", &below[..below.len() - 1]);
+            let above = if below.ends_with('9') { "1.5" } else { &above };
+            for (zero, sign) in [(below, 1.0), (above, -1.0)] {
+                // (s − zero) / (s² − 2): e^(√2 t) with (√2 − zero) / (2 √2).
+                let response = Response::new(&tf(&format!("1 -{zero}"), "1 0 -2"), Impulse).unwrap();
+                let growing = response.modes().iter().find(|mode| mode.re > 0.0).unwrap();
+                assert_eq!(growing.coefficient_re.signum(), sign, "{zero}");
+                let gap = &tf(&format!("1 -{zero}"), "1").num;
+                let apart = (gap * &tf(&format!("1 {zero}"), "1").num).coefficient(0)
+                    + crate::algebra::Rational::from(2);
+                // 2 − zero² = (√2 − zero)(√2 + zero), and that is nearly 2√2.
+                let residue = to_f64(&apart) / 8.0;
+                let is = growing.coefficient_re / residue;
+                assert!((is - 1.0).abs() < if zero == "1.5" { 0.1 } else { 1e-7 }, "{zero}: {is}");
+            }
+        }
     }
 
     #[test]

@@ -6,6 +6,9 @@ use super::{Extremum, Response};
 /// Scans backwards end after this many steps; the envelope's time, a little late, then stands.
 const MOST_STEPS: usize = 100_000;
 
+/// Two swings whose heights differ by less than this, of themselves, are as high.
+const AS_HIGH: f64 = 1e-12;
+
 /// The largest |y − `level`|, at t = 0 or at an extremum; `None` when none is as large as what the response tends to.
 ///
 /// For responses that stay bounded. Where oscillations last for ever the walk covers `enough_s`.
@@ -19,7 +22,9 @@ pub(super) fn largest_excursion(response: &Response, level: f64, enough_s: f64) 
         if limit + response.moving_bound_from(scan.time()) <= height(best) * (1.0 + 1e-13) {
             break;
         }
-        if let Some(extremum) = scan.advance().filter(|&extremum| height(extremum) > height(best)) {
+        // Of those that are as high the first counts, whatever the last digit says.
+        let higher = |extremum: &Extremum| height(*extremum) > height(best) * (1.0 + AS_HIGH);
+        if let Some(extremum) = scan.advance().filter(higher) {
             best = extremum;
         }
     }

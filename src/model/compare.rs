@@ -74,7 +74,8 @@ pub fn compare_as_usual(
     horizon_s: f64,
 ) -> Option<ComparisonRun> {
     let through = linearization.state_space.as_ref()?.d.rows.iter().flatten().any(|d| !d.is_zero());
-    if linearization.states.is_empty() || through || is_linear(model, output) {
+    let nothing_seen = linearization.transfer_function.num.is_zero();
+    if linearization.states.is_empty() || through || nothing_seen || is_linear(model, output) {
         return None;
     }
     let experiment = Experiment::new(model, parameters, at, output, linearization, horizon_s).ok()?;
