@@ -17,8 +17,8 @@ pub const OURS: u8 = 2;
 pub enum Failure {
     #[error("{}", load_error(.0))]
     Load(LoadError),
-    #[error("error: {error}\n --> {lab}")]
-    Reference { lab: String, error: ReferenceError },
+    #[error("{rendered}")]
+    Reference { rendered: String },
     #[error("error: {0}")]
     Report(#[from] ReportError),
     #[error("error: {0}")]
@@ -107,8 +107,9 @@ pub fn load_with_reference_of(
     student: Option<&str>,
 ) -> Result<(LabDefinition, Reference), Failure> {
     let lab = load_lab_of(lab, student)?;
-    let reference = Reference::compute(&lab)
-        .map_err(|error| Failure::Reference { lab: sanitize(&lab.text.name), error })?;
+    let rendered = |error: ReferenceError| error.finding(&lab).render(&lab.text, colour_on_stderr());
+    let reference =
+        Reference::compute(&lab).map_err(|error| Failure::Reference { rendered: rendered(error) })?;
     Ok((lab, reference))
 }
 

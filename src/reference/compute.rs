@@ -8,6 +8,7 @@ use crate::model::{
     linearize,
 };
 use crate::nonlinear::{ChainError, Run, simulate, without_nonlinearities};
+use crate::source::Finding;
 use std::collections::BTreeMap;
 
 /// Why no reference could be computed: always the lab's fault, and always at a named place of it.
@@ -21,6 +22,35 @@ pub enum ReferenceError {
     Roots { point: String, error: RootError },
     #[error("simulation `{simulation}`: {error}")]
     Simulation { simulation: String, error: ChainError },
+}
+
+impl ReferenceError {
+    /// The error at its place in the lab file, with what to do about it.
+    pub fn finding(&self, lab: &LabDefinition) -> Finding {
+        let points = || lab.models.iter().flat_map(|m| m.operating_points.iter().map(move |p| (m, p)));
+        let place = match self {
+            Self::Model { point, .. } | Self::Response { point, .. } | Self::Roots { point, .. } => {
+                points().find(|(model, known)| name(model, known) == *point).map(|(_, known)| known.span)
+            }
+            Self::Simulation { .. } => None,
+        };
+        let help = match self {
+            Self::Response { error: ResponseError::TooClose { .. }, .. } => {
+                "choose values that put these poles farther apart, or exactly on top of one another"
+            }
+            Self::Response { error: ResponseError::OutOfRange, .. }
+            | Self::Roots { error: RootError::OutOfRange, .. } => {
+                "look for a power of ten too many in the values, or measure in other units"
+            }
+            Self::Response { error: ResponseError::Roots(_), .. } | Self::Roots { .. } => {
+                "choose values with fewer digits, or a model of lower order"
+            }
+            Self::Response { .. } | Self::Model { .. } | Self::Simulation { .. } => "",
+        };
+        let finding = Finding::error("lab.reference", self.to_string());
+        let finding = if help.is_empty() { finding } else { finding.with_help(help) };
+        place.map_or_else(|| finding.clone(), |span| finding.clone().at(span))
+    }
 }
 
 /// One choice of a value for every parameter.
@@ -247,4 +277,36 @@ fn model_error(
 /// `cart.hanging`
 fn name(definition: &ModelDefinition, point: &OperatingPointDefinition) -> String {
     format!("{}.{}", definition.id, point.id)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab;
+
+    #[test]
+    fn a_refusal_stands_at_its_operating_point_and_says_what_to_do() {
+        let lab = lab::load(lab::DEFAULT).unwrap();
+        let error = ReferenceError::Response {
+            point: "cart.upright".to_owned(),
+            error: ResponseError::TooClose { first: "-1".to_owned(), second: "-1".to_owned() },
+        };
+        let told = error.finding(&lab).render(&lab.text, false);
+        let line = lab
+            .text
+            .text
+            .lines()
+            .position(|line| line.trim() == "- id: upright")
+            .or_else(|| lab.text.text.lines().position(|line| line.trim_start().starts_with("upright:")));
+        let line = line.unwrap() + 1;
+        for part in [
+            "`cart.upright`",
+            "lie so close together",
+            "farther apart",
+            &format!(":{line}:"),
+            "lab.reference",
+        ] {
+            assert!(told.contains(part), "{part}: {told}");
+        }
+    }
 }
