@@ -122,7 +122,7 @@ fn left_to_a_person(mark: Mark) -> Mark {
 
 fn probably(mark: Mark, same: Option<bool>) -> Mark {
     let but = match same {
-        None => "multiplied out for all values it takes more than polemark does",
+        None => "whether for all of them could not be decided",
         Some(_) => "multiplied out it is not the same for all of them",
     };
     let reason =
@@ -263,7 +263,7 @@ mod tests {
     #[test]
     fn what_is_not_decided_is_put_before_a_person() {
         let long = "(A + k + h_0 + q_0)^25";
-        check(|_| format!("{RIGHT}*{long}/{long}"), (200, 200, true), "takes more");
+        check(|_| format!("{RIGHT}*{long}/{long}"), (200, 200, true), "could not be decided");
         check(|_| format!("{RIGHT}*{long}/{long}/2"), (0, 200, false), "for every value");
         let made_to_agree = |derivation: &LetterDerivation| {
             let factors = (0..PLACES).map(|nth| {

@@ -191,7 +191,7 @@ fn model(kit: &ReportKit, definition: &ModelDefinition, reference: &ModelReferen
     });
     let points = reference.operating_points.iter().map(|p| {
         let system = SystemRef { model: definition.id.clone(), operating_point: p.id.clone() };
-        point(kit, &system, p, definition.linear.is_some())
+        point(kit, &system, p, definition)
     });
     ModelView {
         anchor: anchor("model", &definition.id),
@@ -210,7 +210,7 @@ fn point(
     kit: &ReportKit,
     system: &SystemRef,
     point: &OperatingPointReference,
-    given_linear: bool,
+    definition: &ModelDefinition,
 ) -> PointView {
     let main = point.main();
     let linearization = &main.linearization;
@@ -235,9 +235,9 @@ fn point(
         } else {
             "The equilibrium is not a rational number, so coefficients were computed in double precision."
         },
-        given_linear,
+        given_linear: definition.linear.is_some(),
         linear_html: linearization.linear_equations.iter().map(|e| math::linear_equation(e)).collect(),
-        derivation: DerivationView::of(&point.letters),
+        derivation: DerivationView::of(&point.letters, definition.model.is_printed()),
         state_html: math::state_vector(&linearization.states),
         space_html: linearization.state_space.as_ref().map_or_else(Vec::new, |space| {
             math::state_space(&space.a, &space.b, &space.c, &space.d).to_vec()

@@ -13,6 +13,8 @@ pub struct DerivationView {
     rest_html: Vec<String>,
     /// The equations at rest that say something.
     balance_html: Vec<String>,
+    /// Whether the transfer function has letters at all.
+    has_letters: bool,
     /// Whether some letter has an index 0, or a δ.
     has_letters_at_rest: bool,
     has_deviations: bool,
@@ -31,13 +33,23 @@ pub struct DerivationView {
 }
 
 impl DerivationView {
-    pub fn of(letters: &Result<LetterDerivation, LettersError>) -> Self {
+    /// `printed`: whether the equations are the lab's own, and steps from them are worth showing.
+    pub fn of(letters: &Result<LetterDerivation, LettersError>, printed: bool) -> Self {
         match letters {
-            Ok(derivation) => shown(derivation),
+            Ok(derivation) if printed => shown(derivation),
+            Ok(derivation) => Self {
+                linear_html: Vec::new(),
+                transformed_html: Vec::new(),
+                cleared_html: Vec::new(),
+                matrix_html: String::new(),
+                cramer_html: String::new(),
+                ..shown(derivation)
+            },
             Err(error) => Self {
                 missing: error.to_string(),
                 rest_html: Vec::new(),
                 balance_html: Vec::new(),
+                has_letters: false,
                 has_letters_at_rest: false,
                 has_deviations: false,
                 linear_html: Vec::new(),
@@ -73,6 +85,7 @@ fn shown(d: &LetterDerivation) -> DerivationView {
             .iter()
             .map(|(left, right)| block(&format!("{}<mo>=</mo>{}", left.to_mathml(), right.to_mathml())))
             .collect(),
+        has_letters: d.has_letters(),
         has_letters_at_rest: d.rest.iter().any(|at| matches!(at.is.kind, NodeKind::Symbol { .. })),
         has_deviations: signals.into_iter().any(|signal| signal.deviates),
         linear_html: all(&d.linear),
