@@ -5,6 +5,11 @@ use super::greek;
 /// MathML; anything in the name that is markup is made harmless.
 pub fn symbol_mathml(name: &str, primes: u8) -> String {
     let (base, index) = split_index(name);
+    // h1_0 is the letter h, number 1, at rest.
+    let (base, number) = match (index, split_index(base)) {
+        (Some(_), (letter, Some(number))) => (letter, Some(number)),
+        _ => (base, None),
+    };
     // A name of several letters is upright by itself; a single letter is italic.
     let base = format!("<mi>{}</mi>", glyph(base));
     let dots = match primes {
@@ -21,6 +26,15 @@ pub fn symbol_mathml(name: &str, primes: u8) -> String {
     };
     match index {
         None => marked,
+        Some(index) if number.is_some() => {
+            let (number, index) = (number.unwrap_or_default(), glyph(index));
+            let index = if index.bytes().all(|b| b.is_ascii_digit()) {
+                format!("<mn>{index}</mn>")
+            } else {
+                format!("<mi>{index}</mi>")
+            };
+            format!("<msub>{marked}<mrow><mn>{number}</mn><mo>,</mo>{index}</mrow></msub>")
+        }
         Some(index) if index.bytes().all(|b| b.is_ascii_digit()) => {
             format!("<msub>{marked}<mn>{index}</mn></msub>")
         }
@@ -84,6 +98,7 @@ mod tests {
             ("theta", 1, "<mover><mi>θ</mi><mo>˙</mo></mover>"),
             ("omega_n", 0, "<msub><mi>ω</mi><mi>n</mi></msub>"),
             ("J1", 0, "<msub><mi>J</mi><mn>1</mn></msub>"),
+            ("h1_0", 0, "<msub><mi>h</mi><mrow><mn>1</mn><mo>,</mo><mn>0</mn></mrow></msub>"),
             ("x1", 1, "<msub><mover><mi>x</mi><mo>˙</mo></mover><mn>1</mn></msub>"),
             ("mass", 0, "<mi>mass</mi>"),
             ("_a", 0, "<mi>_a</mi>"),

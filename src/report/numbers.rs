@@ -35,9 +35,14 @@ pub fn typeset(text: &str) -> String {
         let next = letters.get(i + 1).copied();
         match letters[i] {
             '^' if next.is_some_and(|c| c.is_ascii_digit() || c == '-') => {
-                let digits = letters[i + 2..].iter().take_while(|c| c.is_ascii_digit()).count();
-                out.extend(letters[i + 1..i + 2 + digits].iter().map(|c| superscript(*c)));
-                i += 2 + digits;
+                let digits = |from: usize| letters[from..].iter().take_while(|c| c.is_ascii_digit()).count();
+                let mut end = i + 2 + digits(i + 2);
+                // `m^2.5`, but not the full stop after `m^2.`
+                if letters.get(end) == Some(&'.') && digits(end + 1) > 0 {
+                    end += 1 + digits(end + 1);
+                }
+                out.extend(letters[i + 1..end].iter().map(|c| if *c == '.' { '·' } else { superscript(*c) }));
+                i = end;
                 continue;
             }
             '-' => {
@@ -154,6 +159,7 @@ mod tests {
             (counted("0.5", "point"), "0.5 points"),
             (typeset("-0.0132s^3 - 0.41s (g = -9.8)"), "−0.0132s³ − 0.41s (g = −9.8)"),
             (typeset("kg m^2, s^-1, 2021-04, dead-zone"), "kg m², s⁻¹, 2021-04, dead-zone"),
+            (typeset("cm^2.5/s, m^2."), "cm²·⁵/s, m²."),
             (typeset("a^, ^"), "a^, ^"),
             (letter("theta"), "θ"),
             (letter("x"), "x"),

@@ -187,6 +187,20 @@ fn pages_of_all_kinds_are_whole() {
 }
 
 #[test]
+fn linear_models_given_in_letters_are_derived_in_the_key() {
+    let source = SourceText::new("linear.yaml", include_str!("../../tests/it/linear.yaml"));
+    let lab = LabDefinition::parse(source).expect("the lab reads");
+    let reference = Reference::compute(&lab).expect("the lab computes");
+    let page = ReportKit::new(&lab, &reference).expect("its figures can be drawn").reference_page();
+    check_page("linear models", &page);
+    let count = |heading: &str| page.matches(heading).count();
+    assert!(count("<h3>In letters, from ") >= 3);
+    // Steps from equations: of a state space with letters, but not of its channel without any.
+    assert_eq!(count("<h3>Laplace transform</h3>"), 1);
+    assert_eq!(count("<h3>Linearized equations</h3>"), 0);
+}
+
+#[test]
 fn hostile_text_stays_text() {
     for text in HOSTILE {
         check_page(text, &page(&hostile(text)).1);
