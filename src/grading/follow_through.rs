@@ -60,9 +60,9 @@ pub(super) fn follow(lab: &LabDefinition, grader: &Grader<'_>, earned: Earned<'_
     }
 }
 
-/// The system on whose own model an answer can rest.
+/// The system on whose own model an answer can rest. Where it rests says no transfer function.
 fn of_system(check: &Check) -> Option<&SystemRef> {
-    check.system().filter(|_| check.transfer_function().is_none())
+    check.system().filter(|_| check.transfer_function().is_none() && !matches!(check, Check::Rest { .. }))
 }
 
 /// A criterion whose answer may rest on an earlier one.

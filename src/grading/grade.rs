@@ -1,4 +1,4 @@
-use super::accepted::{Accepted, accepted, operating_point};
+use super::accepted::{Accepted, accepted, accepted_where, operating_point};
 use super::conflicts::note_conflicts;
 use super::follow_through::follow;
 use super::mark::{Mark, beginning};
@@ -300,6 +300,20 @@ impl<'a> Grader<'a> {
                         value::judge(points, &accepted, feature, tolerance, typed)
                     }
                     _ => self.without_value(criterion, value::expected(&accepted, feature, tolerance)),
+                }
+            }
+            Check::Rest { of, asked, tolerance, tolerance_of_zero } => {
+                let accepted = accepted_where(self.reference, of, |one| one.values.get(&asked.signal));
+                let zero = accepted.first().is_some_and(|one| one.what.is_zero());
+                let tolerance = if zero { tolerance_of_zero } else { tolerance };
+                match value {
+                    Some(AnswerValue::Value(typed)) => {
+                        value::judge_at_rest(points, &accepted, asked, tolerance, typed)
+                    }
+                    _ => {
+                        let expected = value::expected_at_rest(&accepted, asked, tolerance);
+                        self.without_value(criterion, expected)
+                    }
                 }
             }
             Check::Shape { of, response } => {

@@ -134,7 +134,9 @@ fn tells(own: f64, other: f64, width: f64) -> bool {
 /// The relative tolerance of what a criterion judges.
 fn width(lab: &LabDefinition, criterion: &Criterion) -> f64 {
     match &criterion.check {
-        Check::Poles { tolerance, .. } | Check::Feature { tolerance, .. } => to_f64(&tolerance.relative),
+        Check::Poles { tolerance, .. } | Check::Feature { tolerance, .. } | Check::Rest { tolerance, .. } => {
+            to_f64(&tolerance.relative)
+        }
         check => check.transfer_function().map_or(0.01, |of| to_f64(&coefficient_tolerance(lab, of))),
     }
     .max(1e-4)
@@ -165,6 +167,9 @@ fn right(reference: &Reference, criterion: &Criterion) -> Option<Vec<f64>> {
         Check::Feature { response, feature, .. } if feature.unit == feature.native => {
             Some(vec![value(&features(main, *response)?, feature.kind)?])
         }
+        Check::Rest { asked, .. } if asked.unit == asked.native => {
+            Some(vec![to_f64(main.values.get(&asked.signal)?)])
+        }
         _ => None,
     }
 }
@@ -182,6 +187,11 @@ fn typed(criterion: &Criterion, answer: &AnswerValue) -> Option<Vec<f64>> {
         }
         (Check::Feature { feature, .. }, AnswerValue::Value(FinalValue::Number(number, unit)))
             if feature.unit == feature.native && (unit.is_none() || *unit == feature.unit) =>
+        {
+            Some(vec![to_f64(&number.value)])
+        }
+        (Check::Rest { asked, .. }, AnswerValue::Value(FinalValue::Number(number, unit)))
+            if asked.unit == asked.native && (unit.is_none() || *unit == asked.unit) =>
         {
             Some(vec![to_f64(&number.value)])
         }

@@ -2,8 +2,8 @@ use super::Evidence;
 use super::accepted::{Accepted, also};
 use super::closeness::{Closeness, Expected, percent, shown};
 use super::mark::{Mark, share};
-use crate::algebra::{Rational, significant, to_f64};
-use crate::lab::{AskedFeature, FeatureKind, Points, Tolerance};
+use crate::algebra::{Rational, from_f64, significant, to_f64};
+use crate::lab::{AskedFeature, AskedRest, FeatureKind, Points, Tolerance};
 use crate::lti::{Features, Limit};
 use crate::submission::{Decimal, FinalValue, Unit, UnitRatio};
 
@@ -124,38 +124,85 @@ fn other_conventions(features: &Features, kind: FeatureKind) -> Vec<(&'static st
     all.into_iter().flatten().collect()
 }
 
-/// A feature as it is asked for: in which unit, and how near.
+/// What is right of a value by one accepted set of parameter values, in the unit it is computed in.
+struct Wanted {
+    truth: Truth,
+    /// What textbooks also give under the same name.
+    others: Vec<(&'static str, Expected)>,
+    /// What is read off as well, and why.
+    as_well: (Vec<Expected>, &'static str),
+    /// Whether it may also be said that there is none.
+    hardly_any: bool,
+}
+
+impl Wanted {
+    fn feature(features: &Features, kind: FeatureKind) -> Self {
+        Self {
+            truth: truth(features, kind),
+            others: other_conventions(features, kind),
+            as_well: at_the_line(features, kind),
+            hardly_any: hardly_any(features, kind),
+        }
+    }
+
+    fn rest(value: &Rational) -> Self {
+        let size = if *value < Rational::ZERO { -value.clone() } else { value.clone() };
+        let error_bound = from_f64(COMPUTED_TO).unwrap_or(Rational::ZERO) * size;
+        Self {
+            truth: Truth::Number(Expected { value: value.clone(), error_bound }),
+            others: Vec::new(),
+            as_well: (Vec::new(), ""),
+            hardly_any: false,
+        }
+    }
+}
+
+/// A value as it is asked for: what, in which unit, and how near.
 struct Question<'a> {
-    feature: &'a AskedFeature,
+    /// To stand in a sentence: `the overshoot`.
+    what: &'a str,
+    unit: Option<&'a Unit>,
+    /// Units that may stand behind the same number.
+    also: &'a [Unit],
     tolerance: &'a Tolerance,
     /// How much of the unit asked for is one of the unit it is computed in.
     ratio: UnitRatio,
 }
 
 impl<'a> Question<'a> {
-    fn new(feature: &'a AskedFeature, tolerance: &'a Tolerance) -> Self {
+    fn feature(feature: &'a AskedFeature, tolerance: &'a Tolerance) -> Self {
         let ratio = match (&feature.native, &feature.unit) {
             (Some(native), Some(asked)) => native.in_unit(asked),
             _ => None,
         };
-        Self { feature, tolerance, ratio: ratio.unwrap_or_else(UnitRatio::one) }
+        Self {
+            what: feature.kind.words(),
+            unit: feature.unit.as_ref(),
+            also: &feature.also,
+            tolerance,
+            ratio: ratio.unwrap_or_else(UnitRatio::one),
+        }
+    }
+
+    fn rest(asked: &'a AskedRest, tolerance: &'a Tolerance) -> Self {
+        Self { what: &asked.signal, unit: asked.unit.as_ref(), also: &[], tolerance, ratio: asked.ratio() }
     }
 
     /// In the unit asked for.
-    fn truth(&self, features: &Features) -> Truth {
-        match truth(features, self.feature.kind) {
+    fn truth(&self, wanted: &Wanted) -> Truth {
+        match &wanted.truth {
             Truth::Number(expected) => Truth::Number(expected.in_unit(&self.ratio)),
-            other => other,
+            other => other.clone(),
         }
     }
 
     /// ` Or 3.2 s, since …`, or nothing.
-    fn other_readings(&self, features: &Features) -> String {
-        let (values, why) = at_the_line(features, self.feature.kind);
+    fn other_readings(&self, wanted: &Wanted) -> String {
+        let (values, why) = &wanted.as_well;
         let shown = values.iter().map(|value| self.shown(&value.in_unit(&self.ratio)));
         // Some of many swings stand for all.
         let shown: Vec<String> = shown.take(3).collect();
-        match (shown.as_slice(), hardly_any(features, self.feature.kind)) {
+        match (shown.as_slice(), wanted.hardly_any) {
             ([], false) => String::new(),
             ([], true) => " Or none, for it is less than 0.1 % of the final value.".to_owned(),
             (values, _) => format!(" Or {}, since {why}.", values.join(" or ")),
@@ -163,7 +210,7 @@ impl<'a> Question<'a> {
     }
 
     fn unit(&self) -> &str {
-        self.feature.unit.as_ref().map_or("", Unit::symbol)
+        self.unit.map_or("", Unit::symbol)
     }
 
     fn shown(&self, expected: &Expected) -> String {
@@ -179,33 +226,20 @@ impl<'a> Question<'a> {
     }
 }
 
-/// What is expected of the value, in words.
+/// What is expected of a feature, in words.
 pub(super) fn expected(
     accepted: &[Accepted<'_, Features>],
     feature: &AskedFeature,
     tolerance: &Tolerance,
 ) -> String {
-    let Some(main) = accepted.first() else { return String::new() };
-    let question = Question::new(feature, tolerance);
-    match question.truth(main.what) {
-        Truth::Number(expected) => {
-            let own = question.shown(&expected);
-            let same = |one: &Accepted<'_, Features>| match question.truth(one.what) {
-                Truth::Number(expected) => question.shown(&expected) == own,
-                _ => false,
-            };
-            let others = if accepted.iter().all(same) { String::new() } else { also(accepted) };
-            let either = question.other_readings(main.what);
-            format!("{own}; {}.{either}{others}", expected.accepted_in_words(tolerance, question.unit()))
-        }
-        Truth::PlusInfinity => "It grows without bound, to +∞.".to_owned(),
-        Truth::MinusInfinity => "It grows without bound, to -∞.".to_owned(),
-        Truth::NoLimit => "There is none: the response swings for ever.".to_owned(),
-        Truth::None => "There is none: the response has no such value.".to_owned(),
-    }
+    with_wanted(
+        accepted,
+        |features| Wanted::feature(features, feature.kind),
+        |accepted| Question::feature(feature, tolerance).expected(accepted),
+    )
 }
 
-/// The value typed against each accepted one, the best of them.
+/// The feature typed against each accepted one, the best of them.
 pub(super) fn judge(
     points: Points,
     accepted: &[Accepted<'_, Features>],
@@ -213,33 +247,104 @@ pub(super) fn judge(
     tolerance: &Tolerance,
     typed: &FinalValue,
 ) -> Mark {
-    let found = match typed {
-        FinalValue::Unbounded => "unbounded, or no such value".to_owned(),
-        other => other.read_as(),
-    };
-    let expected = expected(accepted, feature, tolerance);
-    let question = Question::new(feature, tolerance);
-    let mut best: Option<Outcome> = None;
-    for one in accepted {
-        let outcome = question.compare(one, typed);
-        if best.as_ref().is_none_or(|known| outcome.rank() > known.rank()) {
-            best = Some(outcome);
+    with_wanted(
+        accepted,
+        |features| Wanted::feature(features, feature.kind),
+        |accepted| {
+            Question::feature(feature, tolerance).judge(points, accepted, typed, &feature.other_convention)
+        },
+    )
+}
+
+/// What is expected of a value at rest, in words.
+pub(super) fn expected_at_rest(
+    accepted: &[Accepted<'_, Rational>],
+    asked: &AskedRest,
+    tolerance: &Tolerance,
+) -> String {
+    with_wanted(accepted, Wanted::rest, |accepted| Question::rest(asked, tolerance).expected(accepted))
+}
+
+/// The value at rest typed against each accepted one, the best of them.
+pub(super) fn judge_at_rest(
+    points: Points,
+    accepted: &[Accepted<'_, Rational>],
+    asked: &AskedRest,
+    tolerance: &Tolerance,
+    typed: &FinalValue,
+) -> Mark {
+    with_wanted(accepted, Wanted::rest, |accepted| {
+        Question::rest(asked, tolerance).judge(points, accepted, typed, &Rational::ZERO)
+    })
+}
+
+/// What `of` makes of the accepted ones, handed to `then`.
+fn with_wanted<T, R>(
+    accepted: &[Accepted<'_, T>],
+    of: impl Fn(&T) -> Wanted,
+    then: impl FnOnce(&[Accepted<'_, Wanted>]) -> R,
+) -> R {
+    let wanted: Vec<Wanted> = accepted.iter().map(|one| of(one.what)).collect();
+    let pairs = accepted.iter().zip(&wanted);
+    let accepted: Vec<_> = pairs.map(|(one, what)| Accepted { differs: one.differs, what }).collect();
+    then(&accepted)
+}
+
+impl Question<'_> {
+    fn expected(&self, accepted: &[Accepted<'_, Wanted>]) -> String {
+        let Some(main) = accepted.first() else { return String::new() };
+        match self.truth(main.what) {
+            Truth::Number(expected) => {
+                let own = self.shown(&expected);
+                let same = |one: &Accepted<'_, Wanted>| match self.truth(one.what) {
+                    Truth::Number(expected) => self.shown(&expected) == own,
+                    _ => false,
+                };
+                let others = if accepted.iter().all(same) { String::new() } else { also(accepted) };
+                let either = self.other_readings(main.what);
+                format!("{own}; {}.{either}{others}", expected.accepted_in_words(self.tolerance, self.unit()))
+            }
+            Truth::PlusInfinity => "It grows without bound, to +∞.".to_owned(),
+            Truth::MinusInfinity => "It grows without bound, to -∞.".to_owned(),
+            Truth::NoLimit => "There is none: the response swings for ever.".to_owned(),
+            Truth::None => "There is none: the response has no such value.".to_owned(),
         }
     }
-    let Some(Outcome { code, reason }) = best else {
-        return Mark::unmarked(expected, found, "There is no reference to compare this with.");
-    };
-    let evidence = Evidence { expected, found, reason, ..Evidence::default() };
-    let left = if code == "value.other_convention" {
-        share(points, &feature.other_convention)
-    } else {
-        Points::ZERO
-    };
-    match code {
-        "right" => Mark::right(points, evidence),
-        code if left == Points::ZERO => Mark::wrong(code, evidence),
-        code if left == points => Mark { code, ..Mark::right(points, evidence) },
-        code => Mark::partly(code, left, evidence),
+
+    /// `other_convention`: what part of the points is left by what is right under another convention.
+    fn judge(
+        &self,
+        points: Points,
+        accepted: &[Accepted<'_, Wanted>],
+        typed: &FinalValue,
+        other_convention: &Rational,
+    ) -> Mark {
+        let found = match typed {
+            FinalValue::Unbounded => "unbounded, or no such value".to_owned(),
+            other => other.read_as(),
+        };
+        let expected = self.expected(accepted);
+        let mut best: Option<Outcome> = None;
+        for one in accepted {
+            let outcome = self.compare(one, typed);
+            if best.as_ref().is_none_or(|known| outcome.rank() > known.rank()) {
+                best = Some(outcome);
+            }
+        }
+        let Some(Outcome { code, reason }) = best else {
+            return Mark::unmarked(expected, found, "There is no reference to compare this with.");
+        };
+        let evidence = Evidence { expected, found, reason, ..Evidence::default() };
+        let left = match code {
+            "value.other_convention" => share(points, other_convention),
+            _ => Points::ZERO,
+        };
+        match code {
+            "right" => Mark::right(points, evidence),
+            code if left == Points::ZERO => Mark::wrong(code, evidence),
+            code if left == points => Mark { code, ..Mark::right(points, evidence) },
+            code => Mark::partly(code, left, evidence),
+        }
     }
 }
 
@@ -274,12 +379,12 @@ enum Scale {
 }
 
 impl Question<'_> {
-    fn compare(&self, one: &Accepted<'_, Features>, typed: &FinalValue) -> Outcome {
+    fn compare(&self, one: &Accepted<'_, Wanted>, typed: &FinalValue) -> Outcome {
         match (self.truth(one.what), typed) {
             (Truth::Number(want), FinalValue::Number(have, unit)) => {
                 self.compare_numbers(&want, one, have, unit.as_ref())
             }
-            (Truth::Number(_), FinalValue::Unbounded) if hardly_any(one.what, self.feature.kind) => {
+            (Truth::Number(_), FinalValue::Unbounded) if one.what.hardly_any => {
                 Outcome::new("right", "There is hardly any such value, and one may say that there is none.")
             }
             (Truth::Number(want), _) => {
@@ -318,25 +423,25 @@ impl Question<'_> {
     /// How the unit typed, if any, stands to the one asked for.
     fn scale(&self, typed: Option<&Unit>) -> Scale {
         let Some(typed) = typed else { return Scale::Known(vec![UnitRatio::one()]) };
-        let Some(asked) = &self.feature.unit else {
+        let Some(asked) = self.unit else {
             // The lab does not say what the output is measured in: as it stands, or in SI.
             return Scale::Known([UnitRatio::one()].into_iter().chain(typed.in_si()).collect());
         };
         if !asked.is_known() || !typed.is_known() {
             return Scale::Known(vec![UnitRatio::one()]);
         }
-        let found = [asked].into_iter().chain(&self.feature.also).find_map(|unit| typed.in_unit(unit));
+        let found = [asked].into_iter().chain(self.also).find_map(|unit| typed.in_unit(unit));
         found.map_or(Scale::OtherQuantity, |ratio| Scale::Known(vec![ratio]))
     }
 
     /// Right where another reading is as good.
     fn at_the_line(
         &self,
-        one: &Accepted<'_, Features>,
+        one: &Accepted<'_, Wanted>,
         have: &Decimal,
         unit: Option<&Unit>,
     ) -> Option<Outcome> {
-        let (values, why) = at_the_line(one.what, self.feature.kind);
+        let (values, why) = &one.what.as_well;
         let Scale::Known(ratios) = self.scale(unit) else { return None };
         let value = values
             .iter()
@@ -349,7 +454,7 @@ impl Question<'_> {
     fn compare_numbers(
         &self,
         want: &Expected,
-        one: &Accepted<'_, Features>,
+        one: &Accepted<'_, Wanted>,
         have: &Decimal,
         unit: Option<&Unit>,
     ) -> Outcome {
@@ -386,9 +491,9 @@ impl Question<'_> {
                 let reason = format!("The size is right, the sign is not: {expected} was expected.");
                 return Outcome::new("value.sign", reason);
             }
-            for (words, other) in other_conventions(one.what, self.feature.kind) {
+            for (words, other) in &one.what.others {
                 if self.closeness(&other.in_unit(&self.ratio), have, ratio).accepted() {
-                    let asked = self.feature.kind.words();
+                    let asked = self.what;
                     let reason = format!("{typed} is {words}; {asked} was asked, and that is {expected}.");
                     return Outcome::new("value.other_convention", reason);
                 }
@@ -421,7 +526,7 @@ impl Question<'_> {
 
     /// Why the number is right in a unit that was neither asked for nor typed; `None` when it is in none.
     fn other_unit(&self, want: &Expected, have: &Decimal, typed: Option<&Unit>) -> Option<String> {
-        let asked = self.feature.unit.as_ref()?;
+        let asked = self.unit?;
         let written = typed.unwrap_or(asked);
         // A width that belongs to zero would make much of small numbers.
         let tolerance = Tolerance { absolute: Rational::ZERO, ..self.tolerance.clone() };
@@ -447,7 +552,7 @@ impl Question<'_> {
     }
 
     fn other_quantity(&self, want: &Expected, have: &Decimal, unit: Option<&Unit>) -> Outcome {
-        let Some((typed, asked)) = unit.zip(self.feature.unit.as_ref()) else {
+        let Some((typed, asked)) = unit.zip(self.unit) else {
             return Outcome::new("value.unit", format!("{} was expected.", self.shown(want)));
         };
         let number = if self.closeness(want, have, &UnitRatio::one()).accepted() {

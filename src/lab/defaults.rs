@@ -90,6 +90,7 @@ pub(super) fn prompt(kind: FieldKind, check: Option<&Check>, signals: Option<(&s
                 let words = capitalized(words.strip_prefix("the ").unwrap_or(words));
                 if is_of_poles(feature.kind) { words } else { format!("{words}, of the {response}") }
             }
+            Some(Check::Rest { asked, .. }) => format!("{} at rest", asked.signal),
             _ => "A number".to_owned(),
         },
         FieldKind::Stability => "Is it stable?".to_owned(),

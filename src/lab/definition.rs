@@ -1,4 +1,4 @@
-use super::{AskedFeature, MistakesRule, Points, VariantRule};
+use super::{AskedFeature, AskedRest, MistakesRule, Points, VariantRule};
 use crate::algebra::{Expression, Rational};
 use crate::lti::InputKind;
 use crate::model::{Comparison, Equilibrium, LinearForm, Model, Rest, TangentRule};
@@ -221,6 +221,14 @@ pub enum Check {
         feature: AskedFeature,
         tolerance: Tolerance,
     },
+    /// What a coordinate, an output or an input is worth where nothing moves.
+    Rest {
+        of: SystemRef,
+        asked: AskedRest,
+        tolerance: Tolerance,
+        /// In place of it where the value is 0.
+        tolerance_of_zero: Tolerance,
+    },
     Shape {
         of: SystemRef,
         response: InputKind,
@@ -270,6 +278,7 @@ impl Check {
             Self::Poles { of, .. }
             | Self::Stability { of }
             | Self::Feature { of, .. }
+            | Self::Rest { of, .. }
             | Self::Shape { of, .. }
             | Self::Tangent { of, .. }
             | Self::Concepts { describes: Some(Described { of, .. }), .. }

@@ -1,5 +1,5 @@
 use crate::algebra::Rational;
-use crate::submission::Unit;
+use crate::submission::{Unit, UnitRatio};
 
 /// What one may read off a response.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,6 +38,26 @@ pub struct AskedFeature {
     pub also: Vec<Unit>,
     /// What part of the points is left by what is right under the other convention (0..=1).
     pub other_convention: Rational,
+}
+
+/// A value at rest as a criterion asks for it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AskedRest {
+    /// A coordinate, an output or an input.
+    pub signal: String,
+    /// What it is asked in; `None` where the lab does not say.
+    pub unit: Option<Unit>,
+    /// What the equations have it in, where the lab says so.
+    pub native: Option<Unit>,
+}
+
+impl AskedRest {
+    /// How much of the unit asked for is one of the unit that the equations have it in.
+    pub fn ratio(&self) -> UnitRatio {
+        let ratio =
+            self.native.as_ref().zip(self.unit.as_ref()).and_then(|(native, asked)| native.in_unit(asked));
+        ratio.unwrap_or_else(UnitRatio::one)
+    }
 }
 
 /// Every feature, as the lab file spells it and in words.

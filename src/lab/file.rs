@@ -496,7 +496,7 @@ pub(super) struct FieldForm(pub FieldFile);
 #[serde(deny_unknown_fields)]
 pub(super) struct FieldFile {
     /// `transfer_function`, `poles`, `value`, `stability`, `shape`, `nonlinearity`, `prose`, `figure` or `data`; or a feature, for
-    /// the value of it. Default: what `feature`, `expected` or `concepts` is for.
+    /// the value of it; or `rest`, for a value at rest. Default: what `feature`, `value`, `expected` or `concepts` is for.
     #[schemars(extend("enum" = schema::kinds_and_features()))]
     pub kind: Option<Text>,
     /// What is asked for, one line. Default: the kind in words.
@@ -520,6 +520,9 @@ pub(super) struct FieldFile {
     /// For a `value`, in a question without `criteria`: `final_value`, `overshoot_percent`, … as for a criterion.
     #[schemars(extend("enum" = schema::features()))]
     pub feature: Option<Text>,
+    /// For a value at rest, in a question without `criteria`: the coordinate, output or input whose value where nothing moves is
+    /// asked for.
+    pub value: Option<Text>,
     /// In place of the lab's, in a question without `criteria`.
     pub tolerance: Option<Spanned<ToleranceFile>>,
     /// For a `nonlinearity`, in a question without `criteria`: `saturation`, `dead zone`, …
@@ -578,7 +581,7 @@ pub(super) struct CriterionFile {
     /// The field judged, by name. Default: the field whose name is the criterion's id, or its beginning up to a dot; else the
     /// only field.
     pub field: Option<Text>,
-    /// `structure`, `numerator`, `denominator`, `poles`, `stability`, `feature`, `shape`, `plot`, `concepts` or `nonlinearity`.
+    /// `structure`, `numerator`, `denominator`, `poles`, `stability`, `feature`, `rest`, `shape`, `plot`, `concepts` or `nonlinearity`.
     #[schemars(extend("enum" = schema::checks()))]
     pub check: Text,
     /// The operating point judged against. Default: the question's `about`.
@@ -589,6 +592,8 @@ pub(super) struct CriterionFile {
     /// For `feature`: `initial_value`, `final_value`, `peak`, `period_s`, … as the manual lists them.
     #[schemars(extend("enum" = schema::features()))]
     pub feature: Option<Text>,
+    /// For `rest`: the coordinate, output or input whose value where nothing moves is asked for.
+    pub value: Option<Text>,
     /// In place of the lab's.
     pub tolerance: Option<Spanned<ToleranceFile>>,
     /// For `denominator`: the part of the points that a single mistyped coefficient leaves, 0 to 1. Default 0.

@@ -24,7 +24,7 @@ mod variants;
 
 pub use definition::*;
 pub use errors::{LabErrors, LoadError};
-pub use feature::{AskedFeature, FeatureKind};
+pub use feature::{AskedFeature, AskedRest, FeatureKind};
 pub use load::{DEFAULT, embedded, load};
 pub use mistakes::{MistakesRule, WithoutEffect, mistake_codes};
 pub use points::Points;

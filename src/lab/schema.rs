@@ -1,7 +1,7 @@
 //! The lab file as a JSON Schema, for editors: made from the types that read it, their comments its descriptions.
 
 use super::FeatureKind;
-use super::check::{CHECKS, KINDS, SOURCES};
+use super::check::{CHECKS, KINDS, REST, SOURCES};
 use super::file::{Entries, FieldFile, FieldForm, LabFile, RangeFile, Text, VariesFile};
 use schemars::generate::SchemaSettings;
 use schemars::transform::{Transform, transform_subschemas};
@@ -22,7 +22,7 @@ pub(super) fn kinds() -> Vec<&'static str> {
 }
 
 pub(super) fn kinds_and_features() -> Vec<&'static str> {
-    [kinds(), features()].concat()
+    [kinds(), features(), vec![REST]].concat()
 }
 
 pub(super) fn features() -> Vec<&'static str> {

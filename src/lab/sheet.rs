@@ -88,6 +88,7 @@ fn response(question: &Question, path: &str) -> Option<InputKind> {
 fn unit(question: &Question, path: &str) -> Option<Unit> {
     judging(question, path).find_map(|criterion| match &criterion.check {
         Check::Feature { feature, .. } => feature.unit.clone(),
+        Check::Rest { asked, .. } => asked.unit.clone(),
         _ => None,
     })
 }

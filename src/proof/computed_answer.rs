@@ -37,6 +37,7 @@ pub(super) fn is_computed(lab: &LabDefinition, criterion: &Criterion) -> bool {
         | Check::Poles { .. }
         | Check::Stability { .. }
         | Check::Shape { .. } => true,
+        Check::Rest { .. } => true,
         Check::Feature { feature, .. } => feature.kind != FeatureKind::DcGain,
         Check::Plot { data, curve, .. } => data.is_some() && matches!(curve, Curve::Response { .. }),
         _ => false,
@@ -81,6 +82,10 @@ fn answer(reference: &Reference, criterion: &Criterion) -> Option<String> {
                     .to_owned(),
                 ),
             }
+        }
+        Check::Rest { asked, .. } => {
+            let value = to_f64(main.values.get(&asked.signal)?) * to_f64(&asked.ratio().value().0);
+            Some(significant(value, FIGURES))
         }
         Check::Plot { data: Some(_), curve: Curve::Response { response, .. }, span_s, .. } => {
             let curve = &response_of(main, *response)?.response;

@@ -1,7 +1,7 @@
 //! What a lab has not got yet: nothing that fails, but without some of it nothing is proven.
 
 use super::mistakes::undeclared;
-use crate::algebra::significant;
+use crate::algebra::{significant, to_f64};
 use crate::lab::{Check, Concept, ExpectedValue, LabDefinition, Question, SystemRef};
 use crate::lti::InputKind;
 use crate::reference::{Reference, values_at};
@@ -183,6 +183,13 @@ fn answer(check: &Check, reference: &Reference) -> Option<String> {
                     .and_then(|value| value.first().map(rounded))
                     .unwrap_or_else(|| "does not exist".to_owned()),
             )
+        }
+        Check::Rest { of, asked, .. } => {
+            let native = at(of, &format!("equilibrium.{}", asked.signal))?;
+            match native.first()? {
+                ExpectedValue::Number(x) => Some(significant(x * to_f64(&asked.ratio().value().0), FIGURES)),
+                _ => None,
+            }
         }
         Check::Nonlinearity { expected } => Some(nonlinearity_name(*expected).to_owned()),
         _ => None,

@@ -127,6 +127,7 @@ fn linear_values(linear: &LinearReference, path: &str) -> Option<Vec<ExpectedVal
         _ => {
             let (kind, feature) = path.split_once('.')?;
             match kind {
+                "equilibrium" => numbers([to_f64(linear.values.get(feature)?)]),
                 "impulse" => feature_value(linear.impulse.as_ref()?, feature),
                 "step" => feature_value(linear.step.as_ref()?, feature),
                 _ => None,

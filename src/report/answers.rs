@@ -12,8 +12,8 @@ use crate::lti::Features;
 use crate::reference::{OperatingPointReference, Reference};
 use crate::source::sanitize;
 use crate::submission::{
-    Answer, AnswerValue, Decimal, FieldKind, Figure, FinalValue, Series, TypedComplex, nonlinearity_name,
-    shape_name,
+    Answer, AnswerValue, Decimal, FieldKind, Figure, FinalValue, Series, TypedComplex, Unit,
+    nonlinearity_name, shape_name,
 };
 use base64::Engine as _;
 
@@ -82,6 +82,10 @@ fn expected(reference: &Reference, check: &Check) -> String {
         Check::Feature { of, response, feature, .. } => point(of).and_then(|p| {
             let features = &p.main().response(*response)?.features;
             Some(text(&feature_value(features, feature.kind, &p.output_unit)))
+        }),
+        Check::Rest { of, asked, .. } => main(of).and_then(|m| {
+            let value = to_f64(m.values.get(&asked.signal)?) * to_f64(&asked.ratio().value().0);
+            Some(text(&quantity(value, 5, asked.unit.as_ref().map_or("", Unit::symbol))))
         }),
         Check::Shape { of, response } => {
             main(of).and_then(|m| m.response(*response)).map(|known| text(shape_name(known.features.shape)))

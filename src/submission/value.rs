@@ -1,6 +1,11 @@
 use super::decimal::{is_minus, scan};
 use super::problem::{Problem, quote};
-use super::{FinalValue, Unit};
+use super::{Decimal, FinalValue, Unit};
+use crate::algebra::{NumberError, significant, to_f64};
+use std::f64::consts::PI;
+
+/// Figures kept of what is no decimal.
+const FIGURES: usize = 14;
 
 const HELP: &str = "Write a number such as `0`, `-0.143` or `1e-3`, with its unit if you like (`1.5 s`), or `unbounded`, `+∞` or `-∞`.";
 
@@ -25,7 +30,7 @@ pub(super) fn parse_value(text: &str, asked: Option<&Unit>) -> Result<FinalValue
     if without_remark(unsigned).trim().trim_end_matches('.').eq_ignore_ascii_case("zero") {
         return parse_value("0", None);
     }
-    let Some((number, length)) = scan(unsigned) else {
+    let Some((number, length)) = scan_number(unsigned) else {
         return Err(unreadable(0, text.len()));
     };
     let digits_at = text.len() - unsigned.len();
@@ -43,6 +48,38 @@ pub(super) fn parse_value(text: &str, asked: Option<&Unit>) -> Result<FinalValue
         Some(unit) => Ok(FinalValue::Number(number, Some(unit))),
         None => Err(unreadable(text.len() - rest.trim_start().len(), text.len())),
     }
+}
+
+/// A decimal, a multiple of π or a fraction of them at the start of `text`: `1.5`, `3π/4`, `2*pi/5.59`, `1/3`; and its length.
+fn scan_number(text: &str) -> Option<(Result<Decimal, NumberError>, usize)> {
+    let skipped = |at: usize, marks: &[char]| {
+        let rest = text[at..].trim_start();
+        text.len() - rest.strip_prefix(marks).map_or(rest, str::trim_start).len()
+    };
+    let number = scan(text);
+    let after = number.as_ref().map_or(0, |(_, length)| *length);
+    let at_pi = if number.is_some() { skipped(after, &['*', '·', '×']) } else { 0 };
+    let pi = ["\\pi", "pi", "Pi", "π"].iter().find(|pi| text[at_pi..].starts_with(**pi));
+    let pi = pi.map(|pi| at_pi + pi.len()).filter(|end| !text[*end..].starts_with(char::is_alphanumeric));
+    let upper = pi.unwrap_or(after);
+    let lower = text[upper..].trim_start().starts_with('/').then(|| skipped(upper, &['/']));
+    let lower = lower.and_then(|at| scan(&text[at..]).map(|(number, length)| (number, at + length)));
+    if pi.is_none() && lower.is_none() {
+        return number;
+    }
+    let number = match number {
+        Some((Err(error), length)) => return Some((Err(error), length)),
+        Some((Ok(number), _)) => to_f64(&number.value),
+        None if pi.is_some() => 1.0,
+        None => return None,
+    };
+    let (divisor, end) = match lower {
+        Some((Err(error), end)) => return Some((Err(error), end)),
+        Some((Ok(divisor), end)) => (to_f64(&divisor.value), end),
+        None => (1.0, upper),
+    };
+    let value = number * if pi.is_some() { PI } else { 1.0 } / divisor;
+    Some((Decimal::parse(&significant(value, FIGURES)), end))
 }
 
 /// What stands after `θ =`, `y(∞) =`, `final value:`; all of it when no name stands in front.
@@ -264,6 +301,14 @@ mod tests {
             ("− 0.143", number("-0.143")),
             ("1.50", number("1.50")),
             ("1e-3", number("1e-3")),
+            ("pi", number("3.1415926535898")),
+            ("-π/6", number("-0.5235987755983")),
+            ("3π/4 rad", with("2.3561944901923", "rad")),
+            ("2*pi/5.59", number("1.1240045272235")),
+            ("\\pi/2", number("1.5707963267949")),
+            ("1/3", number("0.33333333333333")),
+            ("2/3 rad", with("0.66666666666667", "rad")),
+            ("4 1/s", with("4", "1/s")),
             ("0 rad", with("0", "rad")),
             ("0.2 rad/s", with("0.2", "rad/s")),
             ("0°", with("0", "deg")),

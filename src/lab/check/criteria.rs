@@ -25,6 +25,7 @@ pub(in crate::lab) const CHECKS: &[CheckRow] = &[
         FieldKind::Value,
         &["of", "tolerance", "response", "feature", "other_convention", "follow_through"],
     ),
+    ("rest", FieldKind::Value, &["of", "tolerance", "value"]),
     ("shape", FieldKind::Shape, &["of", "response", "follow_through"]),
     (
         "plot",
@@ -167,6 +168,7 @@ impl Checker<'_> {
                 let (response, feature) = self.feature(file, question, of.as_ref(), unit, names)?;
                 Some(Check::Feature { of: of?, response, feature, tolerance })
             }
+            "rest" => self.rest_check(file, question, unit, names, defaults),
             "shape" => {
                 let response = self.response(file, question);
                 let of = self.system(file, question, names);
@@ -228,7 +230,7 @@ impl Checker<'_> {
             _ => kind.unit(output.as_ref()),
         };
         let (unit, also) = match unit {
-            Some(unit) => (Some(self.asked_unit(unit, kind, native.as_ref())?), Vec::new()),
+            Some(unit) => (Some(self.asked_unit(unit, kind.as_str(), native.as_ref())?), Vec::new()),
             None => {
                 // A response to a unit impulse or step may be given per unit of it.
                 let per = native.as_ref().filter(|_| kind.is_output() && !input.is_empty());
@@ -240,8 +242,8 @@ impl Checker<'_> {
         Some((response?, AskedFeature { kind, unit, native, also, other_convention: other_convention? }))
     }
 
-    /// The unit a field asks for, which must measure what the feature is.
-    fn asked_unit(&mut self, text: &Text, kind: FeatureKind, native: Option<&Unit>) -> Option<Unit> {
+    /// The unit a field asks for, which must measure what is asked for.
+    pub(super) fn asked_unit(&mut self, text: &Text, what: &str, native: Option<&Unit>) -> Option<Unit> {
         let unit = match text.value.trim() {
             "1" => Some(Unit::one()),
             text => Unit::parse(text).or_else(|| native.filter(|native| native.symbol() == text).cloned()),
@@ -255,8 +257,7 @@ impl Checker<'_> {
         let Some(native) = native else { return Some(unit) };
         if native.in_unit(&unit).is_none() {
             let message = format!(
-                "`{}` is {}, but it is asked for in `{}`, the unit of {}",
-                kind.as_str(),
+                "`{what}` is {}, but it is asked for in `{}`, the unit of {}",
                 native.quantity(),
                 text.value.trim(),
                 unit.quantity()
@@ -412,7 +413,12 @@ impl Checker<'_> {
         self.one_of(text, "response", &["impulse", "step"]).map(|i| [InputKind::Impulse, InputKind::Step][i])
     }
 
-    fn required<'a>(&mut self, text: Option<&'a Text>, file: &CriterionFile, key: &str) -> Option<&'a Text> {
+    pub(super) fn required<'a>(
+        &mut self,
+        text: Option<&'a Text>,
+        file: &CriterionFile,
+        key: &str,
+    ) -> Option<&'a Text> {
         if text.is_none() {
             let message = format!("the check `{}` needs the key `{key}`", file.check.value);
             self.error("lab.missing_key", span(&file.check), message, None);
@@ -504,6 +510,7 @@ fn keys(file: &CriterionFile) -> Vec<(&'static str, Span)> {
         ("other_form", text(&file.other_form)),
         ("response", text(&file.response)),
         ("feature", text(&file.feature)),
+        ("value", text(&file.value)),
         ("tolerance", file.tolerance.as_ref().map(span)),
         ("one_slip", text(&file.one_slip)),
         ("other_convention", text(&file.other_convention)),

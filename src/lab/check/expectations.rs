@@ -93,10 +93,13 @@ impl Checker<'_> {
         } else {
             let comparison = OF_A_COMPARISON.iter().map(|s| format!("comparison.{s}"));
             let tangent = OF_A_TANGENT.iter().map(|s| format!("tangent.{s}"));
-            linear().chain(comparison).chain(tangent).chain(["equilibrium".to_owned()]).collect()
+            let at_rest = ["equilibrium".to_owned()].into_iter().chain(at_rest(subject, names));
+            linear().chain(comparison).chain(tangent).chain(at_rest).collect()
         };
         let (end, known) = match alternative(rest) {
-            Some(end) if !names.simulations.contains(&subject) => (end, linear().collect()),
+            Some(end) if !names.simulations.contains(&subject) => {
+                (end, linear().chain(at_rest(subject, names)).collect())
+            }
             _ => (rest, known),
         };
         if !known.iter().any(|k| k == end) {
@@ -123,6 +126,12 @@ impl Checker<'_> {
         self.error("lab.expectation", span(text), message, Some(help));
         None
     }
+}
+
+/// Each value at rest by itself: `equilibrium.u`.
+fn at_rest(system: &str, names: &Names<'_>) -> Vec<String> {
+    let signals = names.system(system).map(|of| names.signals_of(&of)).unwrap_or_default();
+    signals.iter().map(|(name, _)| format!("equilibrium.{name}")).collect()
 }
 
 fn linear() -> impl Iterator<Item = String> {

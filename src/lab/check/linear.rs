@@ -300,6 +300,7 @@ impl Checker<'_> {
                 Check::Structure { .. }
                 | Check::Numerator { .. }
                 | Check::Denominator { .. }
+                | Check::Rest { .. }
                 | Check::Tangent { .. },
             ) => {
                 return true;

@@ -12,6 +12,7 @@ mod models;
 mod operating_points;
 mod parameters;
 mod questions;
+mod rests;
 mod scalars;
 #[cfg(test)]
 mod short_tests;
@@ -24,7 +25,7 @@ mod variants;
 
 pub(super) use cover::SOURCES;
 pub(super) use criteria::CHECKS;
-pub(super) use questions::KINDS;
+pub(super) use questions::{KINDS, REST};
 
 use super::file::{Entries, LabFile, QuantityFile, Spanned, Text};
 use super::{LabDefinition, LabErrors, Outcome, SystemRef, defaults, model_answer, read, sheet};
@@ -94,6 +95,8 @@ struct Names<'a> {
     systems: Vec<String>,
     /// What the output and the input of each of them are measured in; empty where the lab does not say.
     units: Vec<(&'a str, &'a str)>,
+    /// Coordinates, outputs and inputs of each model, each with its unit.
+    signals: Vec<(String, Vec<(String, String)>)>,
     simulations: Vec<&'a str>,
     /// Those of them whose output jumps, with the block that makes it jump.
     jumping: Vec<(&'a str, &'static str)>,
@@ -116,6 +119,12 @@ impl Names<'_> {
         let path = of.to_string();
         let position = self.systems.iter().position(|system| *system == path);
         position.and_then(|i| self.units.get(i)).copied().unwrap_or_default()
+    }
+
+    /// Coordinates, outputs and inputs of an operating point, each with its unit.
+    fn signals_of(&self, of: &SystemRef) -> &[(String, String)] {
+        let known = self.signals.iter().find(|(model, _)| *model == of.model);
+        known.map_or(&[], |(_, signals)| signals)
     }
 
     /// `model.operating_point`, or a model alone that has but one operating point.
@@ -168,6 +177,7 @@ impl Checker<'_> {
             jumping: simulations::jumping(file),
             questions: file.questions.0.iter().map(|(id, _)| id.value.as_str()).collect(),
             unresponsive: Vec::new(),
+            signals: operating_points::signals(file),
         };
         let outcomes = file.outcomes.0.iter().map(|(id, text)| {
             self.id(id, "outcome id");

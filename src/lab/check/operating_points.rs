@@ -1,6 +1,6 @@
 use super::parameters::{Parameters, reason};
 use super::{Checker, span};
-use crate::lab::file::{ComparisonFile, ModelFile, OperatingPointFile, Text};
+use crate::lab::file::{ComparisonFile, LabFile, ModelFile, OperatingPointFile, Text};
 use crate::lab::{OperatingPointDefinition, defaults};
 use crate::model::{self, Comparison, Equilibrium, Model, ModelError, Rest, RestValue};
 use std::collections::BTreeMap;
@@ -185,4 +185,19 @@ pub(super) fn units(model: &ModelFile) -> Vec<(&str, &str)> {
     let coordinates = coordinates.map(|(name, quantity)| (name.value.as_str(), quantity.unit.trim()));
     let outputs = model.outputs.0.iter();
     coordinates.chain(outputs.map(|(name, output)| (name.value.as_str(), output.unit.trim()))).collect()
+}
+
+/// Coordinates, outputs and inputs of each model, each with its unit.
+pub(super) fn signals(file: &LabFile) -> Vec<(String, Vec<(String, String)>)> {
+    let of = |model: &ModelFile| {
+        let inputs = model
+            .inputs
+            .value
+            .0
+            .iter()
+            .map(|(name, input)| (name.value.clone(), input.unit.trim().to_owned()));
+        let watched = units(model).into_iter().map(|(name, unit)| (name.to_owned(), unit.to_owned()));
+        watched.chain(inputs).collect()
+    };
+    file.models.0.iter().map(|(id, model)| (id.value.clone(), of(model))).collect()
 }

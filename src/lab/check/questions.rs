@@ -18,6 +18,9 @@ pub(in crate::lab) const KINDS: &[(&str, FieldKind)] = &[
     ("data", FieldKind::Data),
 ];
 
+/// As a field spells that it asks for a value at rest.
+pub(in crate::lab) const REST: &str = "rest";
+
 /// As the lab file spells it.
 pub(super) fn kind_name(kind: FieldKind) -> &'static str {
     KINDS.iter().find(|(_, k)| *k == kind).map_or("", |(name, _)| name)
@@ -269,7 +272,9 @@ impl Checker<'_> {
     fn kind(&mut self, path: &str, id: &Text, field: &FieldFile) -> Option<FieldKind> {
         let Some(word) = &field.kind else {
             let kind = match field {
-                FieldFile { feature: Some(_), .. } => Some(FieldKind::Value),
+                FieldFile { feature: Some(_), .. } | FieldFile { value: Some(_), .. } => {
+                    Some(FieldKind::Value)
+                }
                 FieldFile { expected: Some(_), .. } => Some(FieldKind::Nonlinearity),
                 FieldFile { concepts: Some(_), .. } => Some(FieldKind::Prose),
                 _ => None,
@@ -284,11 +289,11 @@ impl Checker<'_> {
             return Some(*kind);
         }
         let features: Vec<&str> = FeatureKind::all().map(FeatureKind::as_str).collect();
-        if features.contains(&word.value.as_str()) && field.feature.is_none() {
+        if word.value == REST || features.contains(&word.value.as_str()) && field.feature.is_none() {
             return Some(FieldKind::Value);
         }
         let kinds: Vec<&str> = KINDS.iter().map(|(name, _)| *name).collect();
-        let all: Vec<&str> = kinds.iter().chain(&features).copied().collect();
+        let all: Vec<&str> = kinds.iter().chain(&features).chain(&[REST]).copied().collect();
         let near = suggestion(&word.value, &all);
         let help = if near.starts_with("did you mean") { near } else { suggestion(&word.value, &kinds) };
         let message = format!("there is no kind of field `{}`", word.value);

@@ -157,7 +157,7 @@ fn too_little_is_said() {
     check(
         "{points: 1, answer: value}",
         "value",
-        "the field `q` of kind `value` needs `feature` to be judged",
+        "the field `q` of kind `value` needs `feature` or `value` to be judged",
         "add it to the field, or give the question `criteria`",
     );
     check(

@@ -1,6 +1,6 @@
 //! The criteria of a question that states none: those of the kind of each of its fields.
 
-use super::questions::{Fields, asked, kind_name};
+use super::questions::{Fields, REST, asked, kind_name};
 use super::{Checker, span};
 use crate::lab::file::{CriterionFile, FieldFile, QuestionFile, Text};
 use crate::lab::{FeatureKind, Points, defaults};
@@ -34,6 +34,7 @@ impl Checker<'_> {
                 self.error("lab.points", span(place), message, Some("give it more points".to_owned()));
             }
             for (index, (id, check, _)) in usual.iter().enumerate() {
+                let check = if asks_for_rest(field) { &REST } else { check };
                 let text = |value: &str| Text { value: value.to_owned(), ..place.clone() };
                 let name_of_criterion = match name {
                     None => (*id).to_owned(),
@@ -48,6 +49,7 @@ impl Checker<'_> {
                     of: field.of.clone(),
                     response: field.response.clone(),
                     feature: feature(field),
+                    value: field.value.clone(),
                     tolerance: field.tolerance.clone().filter(|_| *check != "structure"),
                     one_slip: (*check == "denominator").then(|| text(defaults::USUAL_ONE_SLIP)),
                     other_convention: None,
@@ -76,7 +78,8 @@ impl Checker<'_> {
     /// Whether a field says what its usual criterion needs.
     fn judgeable(&mut self, path: &str, kind: FieldKind, field: &FieldFile, place: Span) -> bool {
         let missing = match kind {
-            FieldKind::Value if feature(field).is_none() => "`feature`",
+            FieldKind::Value if asks_for_rest(field) && field.value.is_none() => "`value`",
+            FieldKind::Value if feature(field).is_none() && !asks_for_rest(field) => "`feature` or `value`",
             FieldKind::Nonlinearity if field.expected.is_none() => "`expected`",
             FieldKind::Prose if field.concepts.is_none() => "`concepts`",
             FieldKind::Data => "a criterion that holds it against a curve",
@@ -101,6 +104,7 @@ impl Checker<'_> {
                 ("of", text(&field.of)),
                 ("response", text(&field.response)),
                 ("feature", text(&field.feature)),
+                ("value", text(&field.value)),
                 ("tolerance", field.tolerance.as_ref().map(span)),
                 ("expected", text(&field.expected)),
                 ("concepts", field.concepts.as_ref().map(span)),
@@ -119,4 +123,10 @@ fn feature(field: &FieldFile) -> Option<Text> {
     let kind =
         || field.kind.as_ref().filter(|word| FeatureKind::all().any(|kind| kind.as_str() == word.value));
     field.feature.as_ref().or_else(kind).cloned()
+}
+
+/// Whether a field asks for a value at rest: it says so, or names what rests and no feature.
+fn asks_for_rest(field: &FieldFile) -> bool {
+    field.kind.as_ref().is_some_and(|kind| kind.value == REST)
+        || field.value.is_some() && feature(field).is_none()
 }
