@@ -57,6 +57,12 @@ impl Bench {
         &VARIANTS
     }
 
+    /// `rest.yaml`: values at rest.
+    pub fn rest() -> &'static Self {
+        static REST: LazyLock<Bench> = LazyLock::new(|| Bench::of("rest.yaml", include_str!("rest.yaml")));
+        &REST
+    }
+
     fn of(name: &str, text: &str) -> Self {
         let lab = LabDefinition::parse(SourceText::new(name, text));
         Self::new(lab.unwrap_or_else(|errors| panic!("{name}: {errors:#?}")))

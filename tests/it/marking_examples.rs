@@ -28,7 +28,7 @@
 //! What stands before `marks:` is what an answer file has below `answers:`; files are those of `submissions/`. What is in
 //! double quotes is a part of what the student reads beside the mark. A first line `students: ME-001, ME-002` says whose it is.
 //!
-//! The embedded lab is asked, or `small.yaml`, `oscillator.yaml`, `tangent.yaml`, `letters.yaml` or `variants.yaml` when the ids
+//! The embedded lab is asked, or `small.yaml`, `oscillator.yaml`, `tangent.yaml`, `letters.yaml`, `rest.yaml` or `variants.yaml` when the ids
 //! are its own.
 
 use crate::bench::Bench;
@@ -370,6 +370,7 @@ fn the_examples_are_true_and_show_every_rule() {
         Bench::tangents(),
         Bench::letters(),
         Bench::variants(),
+        Bench::rest(),
     ];
     let manual = Manual::read(&benches);
     let mut met = BTreeSet::new();
