@@ -24,7 +24,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     for check in &checks {
         text.push_str(&shown(check, &lab.text));
     }
-    let missing = missing(&lab);
+    let missing = missing(&lab, &reference);
     for one in &missing {
         let mark = if one.keeps_from_proof { "TO DO" } else { "hint " };
         text.push_str(&wrapped(&format!("{mark} {}: {}", one.what, one.found)));

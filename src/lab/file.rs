@@ -243,9 +243,11 @@ pub(super) struct OperatingPointFile {
     /// the equations, and nothing else does (nothing nearer). What is left out is 0.
     #[serde(default)]
     pub at: Entries<Text>,
-    /// The input that is varied.
+    /// The input that is varied. Default: the only one.
+    #[serde(default)]
     pub input: Text,
-    /// The coordinate or output that is watched.
+    /// The coordinate or output that is watched. Default: the only output; without outputs, the only coordinate.
+    #[serde(default)]
     pub output: Text,
     /// How the linear model is held against the nonlinear equations. Default: over the time an impulse response is shown, with the
     /// impulse at which they part by a tenth of the linear peak and a fifth of it.

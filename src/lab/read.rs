@@ -1,4 +1,4 @@
-use super::file::LabFile;
+use super::file::{LabFile, ModelFile, Text};
 use super::linear_file;
 use super::names::suggestion;
 use crate::source::{Finding, Node, SourceText, Span, Value, sanitize};
@@ -22,7 +22,28 @@ pub(super) fn read(source: &SourceText) -> Result<(LabFile, Node), Finding> {
     let mut file: LabFile =
         serde_yaml::from_str_with_options(&source.text, options).map_err(|error| finding(&error, &tree))?;
     linear_file::spell_out(&mut file)?;
+    file.models.0.iter_mut().for_each(|(_, model)| name_the_only_ones(model));
     Ok((file, tree))
+}
+
+/// Where a point names no input or output, the only one there is; else nothing, at the place of the point.
+fn name_the_only_ones(model: &mut ModelFile) {
+    let only = |names: Vec<&Text>| match names.as_slice() {
+        [only] => only.value.clone(),
+        _ => String::new(),
+    };
+    let input = only(model.inputs.value.0.iter().map(|(name, _)| name).collect());
+    let output = match model.outputs.0.as_slice() {
+        [] => only(model.coordinates.value.0.iter().map(|(name, _)| name).collect()),
+        outputs => only(outputs.iter().map(|(name, _)| name).collect()),
+    };
+    for (id, point) in &mut model.operating_points.value.0 {
+        for (signal, only) in [(&mut point.input, &input), (&mut point.output, &output)] {
+            if signal.value.is_empty() {
+                *signal = Text { value: only.clone(), defined: id.defined };
+            }
+        }
+    }
 }
 
 /// A sentence for students as a help for authors: a small letter first, no full stop.

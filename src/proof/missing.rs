@@ -24,7 +24,7 @@ pub struct Missing {
 }
 
 /// What `lab` has not got yet, the things without which it is not proven first.
-pub fn missing(lab: &LabDefinition) -> Vec<Missing> {
+pub fn missing(lab: &LabDefinition, reference: &Reference) -> Vec<Missing> {
     let mut all = Vec::new();
     let mut say = |what: &str, found: String, keeps_from_proof| {
         all.push(Missing { what: what.to_owned(), found, keeps_from_proof });
@@ -39,6 +39,12 @@ pub fn missing(lab: &LabDefinition) -> Vec<Missing> {
     if let Some(names) = listed(unanswered(lab).map(|field| field.path.clone())) {
         let found = format!("none for {names}: write `model_answer` under the question, as a student would");
         say("model answers", found, true);
+    }
+    if let Some(changes) = listed(undeclared(lab, reference).into_iter()) {
+        let found = format!(
+            "no answer shows {changes}: is the equation right? Declare what is meant to be so under `mistakes: {{without_effect: […]}}`"
+        );
+        say("mistakes without effect", found, true);
     }
     let asked: Vec<&str> = lab.sheet.fields.iter().filter_map(|field| field.about.as_deref()).collect();
     let points = lab.models.iter().flat_map(|model| {

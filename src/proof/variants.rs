@@ -6,7 +6,7 @@
 
 use super::Check;
 use super::computed_answer::{computed_answer, is_computed};
-use super::mistakes::wrong_functions;
+use super::mistakes::{undeclared, wrong_functions};
 use crate::grading::{Catalogue, Verdict, grade};
 use crate::lab::{Check as Judged, LabDefinition, Points, Variant, VariantRule};
 use crate::lti::{InputKind, Limit, Pole};
@@ -53,8 +53,9 @@ pub(super) fn variants_are_fair(lab: &LabDefinition, reference: &Reference) -> V
     checks.push(equally_hard(rule, &difficulty(lab, reference), &solved, &check));
     checks.push(different(rule, &solved, &check));
     let close: Vec<&Variant> = spread(&all, MOST_CLOSELY);
+    let known = undeclared(lab, reference);
     let closely: Vec<(&Variant, Result<usize, String>)> =
-        close.par_iter().map(|variant| (*variant, closely(lab, variant))).collect();
+        close.par_iter().map(|variant| (*variant, closely(lab, variant, &known))).collect();
     checks.push(told_apart(rule, lab, reference, &closely, all.len(), &check));
     checks.push(own_answers(lab, rule, &spread(&all, MOST_ANSWERED), &check));
     checks
@@ -212,10 +213,10 @@ fn different(
 }
 
 /// The whole reference, and how many different wrong functions its mistakes lead to.
-fn closely(lab: &LabDefinition, variant: &Variant) -> Result<usize, String> {
+fn closely(lab: &LabDefinition, variant: &Variant, known: &[String]) -> Result<usize, String> {
     let lab = lab.with_variant(variant).map_err(|errors| errors.to_string())?;
     let reference = Reference::compute(&lab).map_err(|error| error.to_string())?;
-    wrong_functions(&lab, &reference)
+    wrong_functions(&lab, &reference, known)
 }
 
 /// A variant may lose one in ten of the different wrong functions that the lab's own values have, by some coincidence of values.
@@ -231,7 +232,7 @@ fn told_apart(
     if let Some((variant, Err(why))) = closely.iter().find(|(_, found)| found.is_err()) {
         return check(what, format!("{}: {why}", rule.words(variant)), false);
     }
-    let own = wrong_functions(lab, reference).unwrap_or(0);
+    let own = wrong_functions(lab, reference, &undeclared(lab, reference)).unwrap_or(0);
     let worst = closely.iter().filter_map(|(variant, found)| Some((found.as_ref().ok()?, *variant)));
     let Some((worst, variant)) = worst.min() else { return check(what, "none to look at".to_owned(), true) };
     let amount = if closely.len() == all {

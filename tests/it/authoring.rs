@@ -1,5 +1,6 @@
 //! An instructor's first hour: a new folder, the guide's own example, and what is said when something is missing.
 
+use polemark::reference::Reference;
 use std::path::Path;
 use std::process::Command;
 
@@ -127,8 +128,11 @@ fn what_is_missing_can_be_pasted() {
 fn nothing_keeps_a_lab_of_the_shelf_from_proof() {
     for (id, _) in polemark::lab::embedded() {
         let lab = polemark::lab::load(id).expect("it parses");
-        let to_do: Vec<_> =
-            polemark::proof::missing(&lab).into_iter().filter(|one| one.keeps_from_proof).collect();
+        let reference = Reference::compute(&lab).expect("it has a reference");
+        let to_do: Vec<_> = polemark::proof::missing(&lab, &reference)
+            .into_iter()
+            .filter(|one| one.keeps_from_proof)
+            .collect();
         assert!(to_do.is_empty(), "{id}: {to_do:#?}");
     }
 }

@@ -1,6 +1,7 @@
 use super::parameters::{Parameters, reason};
 use super::{Checker, span};
 use crate::lab::file::{ComparisonFile, LabFile, ModelFile, OperatingPointFile, Text};
+use crate::lab::names::list;
 use crate::lab::{OperatingPointDefinition, defaults};
 use crate::model::{self, Comparison, Equilibrium, Model, ModelError, Rest, RestValue};
 use std::collections::BTreeMap;
@@ -26,10 +27,10 @@ impl Checker<'_> {
                 entries.push((name.value.clone(), value));
             }
         }
-        let input = self.one_of(&file.input, "input", &inputs);
+        let input = self.signal(&file.input, "input", &inputs);
         let watched: Vec<(&str, &str)> = units(model);
         let known: Vec<&str> = watched.iter().map(|(name, _)| *name).collect();
-        let output = self.one_of(&file.output, "coordinate or output", &known);
+        let output = self.signal(&file.output, "coordinate or output", &known);
         let comparison = match &file.comparison {
             Some(comparison) => self.comparison(comparison).map(Some),
             None => Some(None),
@@ -171,6 +172,18 @@ impl Checker<'_> {
             _ => (first, error.to_string(), None),
         };
         self.error("lab.equilibrium", place, message, help);
+        None
+    }
+
+    /// Which of `known` a point names; of several it has to say it.
+    fn signal(&mut self, text: &Text, what: &str, known: &[&str]) -> Option<usize> {
+        if !text.value.is_empty() || known.is_empty() {
+            return self.one_of(text, what, known);
+        }
+        let key = if what == "input" { "input" } else { "output" };
+        let message = format!("it is not said which {what} this point is about");
+        let help = format!("add `{key}:` with one of {}", list(known));
+        self.error("lab.missing_key", span(text), message, Some(help));
         None
     }
 }
