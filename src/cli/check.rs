@@ -17,20 +17,28 @@ pub struct Arguments {
     /// Answer files.
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// Embedded lab, or path of a lab file [default: ee361-lab3].
+    /// Embedded lab, or path of a lab file [default: the embedded lab that the file names, else ee361-lab3].
     #[arg(long)]
     lab: Option<String>,
 }
 
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
-    let lab = load_lab(arguments.lab.as_deref())?;
     let mut all_well = true;
     for path in &arguments.files {
-        let (text, well) = check_file(&lab, path)?;
+        let named = arguments.lab.clone().or_else(|| named_lab(path));
+        let (text, well) = check_file(&load_lab(named.as_deref())?, path)?;
         write_output(None, &text)?;
         all_well &= well;
     }
     Ok(if all_well { ExitCode::SUCCESS } else { ExitCode::from(THEIRS) })
+}
+
+/// The embedded lab that the file says it answers.
+fn named_lab(path: &Path) -> Option<String> {
+    let text = crate::source::decode(&crate::class::read_capped(path).ok()?).ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix("lab:"))?;
+    let name = line.split('#').next()?.trim().trim_matches(['"', '\'']);
+    crate::lab::embedded().iter().find(|(id, _)| *id == name).map(|(id, _)| (*id).to_owned())
 }
 
 fn check_file(lab: &LabDefinition, path: &Path) -> Result<(String, bool), Failure> {

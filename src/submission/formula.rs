@@ -15,6 +15,8 @@ use std::collections::BTreeMap;
 const CODE: &str = "transfer_function.unreadable";
 const HELP: &str = "Write it like `0.5s / (s^2 + 2s + 5)`, or as coefficients, highest power first: `{num: [0.5, 0], den: [1, 2, 5]}`.";
 
+/// Length of a formula as typed, what stands around it included.
+const MOST_BYTES: usize = 4_000;
 /// Degree of numerator and denominator.
 const MAX_DEGREE: usize = 30;
 /// Coefficients of one polynomial as a list.
@@ -32,6 +34,10 @@ pub(super) fn read_transfer_function(
     let letters = Letters::new(sheet, path);
     let mut reader = Reader { letters: &letters, source, commas: Vec::new(), variable: None };
     let (transfer_function, formula) = match &node.value {
+        Value::Scalar(text) if text.len() > MOST_BYTES => {
+            let message = format!("This is longer than the {MOST_BYTES} bytes of a formula that are read.");
+            return Err(Box::new(Finding::error(CODE, message).with_help(HELP).at(node.span)));
+        }
         Value::Scalar(text) => reader.formula(node, text)?,
         Value::Mapping(entries) => reader.coefficients(node, entries)?,
         Value::Sequence(_) | Value::Null => {

@@ -35,7 +35,7 @@ impl TypedFormula {
         // Of `y = a = b` the middle is passed over.
         let left =
             left.map(|left| EQUALS.iter().fold(left, |left, sign| left.split(sign).next().unwrap_or(left)));
-        let left = left.and_then(|left| Expression::parse_typed(left.trim()).ok());
+        let left = left.and_then(|left| Expression::parse_typed(without_argument(left.trim())).ok());
         Ok(Self { left, right })
     }
 
@@ -45,6 +45,18 @@ impl TypedFormula {
             Some(left) => format!("{}<mo>=</mo>{}", left.to_mathml(), self.right.to_mathml()),
             None => self.right.to_mathml(),
         }
+    }
+}
+
+/// `y(x)` as `y`: on the left side a name with a name in brackets behind it is a function and its argument.
+fn without_argument(left: &str) -> &str {
+    let is_name = |text: &str| {
+        text.starts_with(char::is_alphabetic) && text.chars().all(|c| c.is_alphanumeric() || c == '_')
+    };
+    let parted = left.strip_suffix(')').and_then(|rest| rest.split_once('('));
+    match parted {
+        Some((name, argument)) if is_name(name.trim()) && is_name(argument.trim()) => name.trim(),
+        _ => left,
     }
 }
 
@@ -84,6 +96,8 @@ mod tests {
         check("y = 6x - 9", "y", "6*x - 9");
         check("y ≈ 9 + 6(x - 3)", "y", "9 + 6*(x - 3)");
         check("6*(x-3)+9", "", "6*(x - 3) + 9");
+        check("y(x) = 6x - 9", "y", "6*x - 9");
+        check("f (x) ≈ 6x - 9", "f", "6*x - 9");
         check("Δy = 6Δx", "dy", "6*dx");
         check("\\delta y = 6 \\delta x", "dy", "6*dx");
         check("$dy = 6 dx$", "dy", "6*dx");

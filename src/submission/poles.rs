@@ -4,6 +4,8 @@ use super::problem::{Problem, quote};
 
 /// Poles in one list, repeated ones counted.
 pub(super) const MAX_POLES: usize = 60;
+/// More than so many poles take, with room to spare.
+pub(super) const MOST_POLE_BYTES: usize = 6_000;
 
 const CODE: &str = "poles.unreadable";
 const HELP: &str = "Write a pole like `-0.143`, `-2+3.1j` or `-2 ± 3.1j`; a double one like `-1 (x2)`.";
@@ -232,7 +234,7 @@ impl Cursor<'_> {
 
     /// A pole, its conjugate after `±`, and repetitions.
     fn item(&mut self) -> Result<Vec<ReadPole>, Problem> {
-        self.skip_name();
+        let named = self.skip_name();
         let start = self.at;
         let opened = self.eat_any(&['(']).is_some();
         let first = self.term(start, true)?;
@@ -267,11 +269,12 @@ impl Cursor<'_> {
             _ => return Err(self.two_of_a_kind(&first, start, end)),
         };
         self.skip_unit();
-        let times = self.multiplicity()?;
         let once: Vec<ReadPole> = re
             .iter()
             .flat_map(|re| im.iter().map(|im| ReadPole { re: re.clone(), im: im.clone(), start, end }))
             .collect();
+        // `s_1,2 = 0` is a pole that is there twice.
+        let times = self.multiplicity()?.max(if once.len() == 1 { named } else { 1 });
         Ok(once.iter().flat_map(|pole| std::iter::repeat_n(pole.clone(), times)).collect())
     }
 
@@ -285,9 +288,10 @@ impl Cursor<'_> {
         })
     }
 
-    /// `s =`, `p1 =`, `p_{1,2}:`, `≈` in front of a pole.
-    fn skip_name(&mut self) {
+    /// Passes over `s =`, `p1 =`, `p_{1,2}:`, `≈` in front of a pole; how many poles the indices name, at least 1.
+    fn skip_name(&mut self) -> usize {
         let rest = self.rest();
+        let mut named = 1;
         if rest.starts_with(|c: char| c.is_alphabetic()) {
             let name = rest.char_indices().find(|(i, c)| {
                 !(*i == 0
@@ -297,13 +301,14 @@ impl Cursor<'_> {
             if let Some((i, c)) = name
                 && matches!(c, '=' | ':' | '≈')
             {
+                named = indices(&rest[..i]);
                 self.at += i + c.len_utf8();
             }
         }
         loop {
             self.skip_space();
             if self.eat_any(&['≈', '~', '=']).is_none() {
-                return;
+                return named;
             }
         }
     }
@@ -461,6 +466,15 @@ impl Cursor<'_> {
             .help("Write a double pole like `-1 (x2)`, or list it twice.")),
         }
     }
+}
+
+/// How many poles a name with indices stands for: 2 for `s_1,2` and `p_{3/4}`, 1 for `p1` and for `p1-3`, which says less.
+fn indices(name: &str) -> usize {
+    let digits =
+        |part: &str| !part.is_empty() && part.chars().all(|c| c.is_ascii_digit() || ('₀'..='₉').contains(&c));
+    let listed = name.trim_start_matches(char::is_alphabetic).trim_start_matches(['_', '{', ' ']);
+    let parts: Vec<&str> = listed.trim_end_matches(['}', ' ']).split([',', '/']).map(str::trim).collect();
+    if parts.len() <= MAX_POLES && parts.iter().all(|part| digits(part)) { parts.len() } else { 1 }
 }
 
 /// A number whose whole part is followed by `,` and a digit, where the comma may also separate two poles.

@@ -3,7 +3,7 @@ use super::decimal_commas::{decimal_comma_between, rejoined_poles};
 use super::figure::parse_figure;
 use super::formula::read_transfer_function;
 use super::half_said;
-use super::poles::{MAX_POLES, ReadPole, parse_poles};
+use super::poles::{MAX_POLES, MOST_POLE_BYTES, ReadPole, parse_poles};
 use super::problem::{Problem, quote, sentence};
 use super::series::{parse_series, rows_as_text};
 use super::value::parse_value;
@@ -438,6 +438,10 @@ impl<'a> Reader<'a> {
         settled: bool,
         commas: &mut Vec<(Span, String)>,
     ) -> Result<Vec<TypedComplex>, Box<Finding>> {
+        if text.len() > MOST_POLE_BYTES {
+            let message = format!("This list is longer than the {MOST_POLE_BYTES} bytes that are read.");
+            return Err(Box::new(Finding::error("poles.too_many", message).at(node.span)));
+        }
         let text = &without_marks(text);
         let pointed = match only_decimal_in_poles(text, entry) {
             true => Pointed::read(text, 0, settled),

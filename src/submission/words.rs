@@ -154,7 +154,7 @@ fn shape(text: &str) -> Option<Shape> {
     let decay = words.has_any(DECAYS)
         || starts(&[
             "decay", "damped", "damping", "shrink", "diminish", "converg", "settl", "decreas", "fading",
-            "fade", "attenuat", "subsid",
+            "fade", "attenuat", "subsid", "approach",
         ]);
     // What rises to a level does not grow for ever.
     let rises = words.has_any(&["rises", "rising"]) && !words.has_any(&["to", "towards", "toward", "final"]);
@@ -188,6 +188,10 @@ fn shape(text: &str) -> Option<Shape> {
             "forever",
             "flat",
         ]);
+    let ramp = starts(&["ramp"]);
+    if ramp && swing && (decay || words.has_any(&["underdamped"])) && !growth && !steady {
+        return Some(Shape::PolynomialGrowth);
+    }
     if words.has_any(&["underdamped", "under damped"]) {
         return (!growth && !steady && !no_swing).then_some(Shape::DecayingOscillation);
     }
