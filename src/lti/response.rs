@@ -315,7 +315,7 @@ const MOST_BITS: i64 = 4_000;
 ///
 /// Where a zero nearly cancels a pole, the pole is found to as many bits as tell them apart: how small a residue is, and
 /// on which side of 0, is never left to rounding.
-fn partial_fractions(g: &TransferFunction) -> Result<(Vec<Mode>, Vec<Pole>), ResponseError> {
+fn partial_fractions(g: &TransferFunction) -> Result<ModesAndPoles, ResponseError> {
     // Both over one common denominator, so that their quotient stays what it is.
     let both = [g.den.coefficients(), g.num.coefficients()].concat();
     let integers = Polynomial::new(both).primitive();
@@ -332,13 +332,16 @@ fn partial_fractions(g: &TransferFunction) -> Result<(Vec<Mode>, Vec<Pole>), Res
     }
 }
 
+/// The modes of a response, and the poles they belong to.
+type ModesAndPoles = (Vec<Mode>, Vec<Pole>);
+
 /// With poles to within 2^−`bits` of each part; `None` where a zero is too close to one of them for that.
 fn terms_to(
     p: &Polynomial,
     den: &[IBig],
     num: &[IBig],
     bits: i64,
-) -> Result<Option<(Vec<Mode>, Vec<Pole>)>, ResponseError> {
+) -> Result<Option<ModesAndPoles>, ResponseError> {
     let mut modes = Vec::with_capacity(p.degree());
     let mut poles = Vec::with_capacity(p.degree());
     for root in isolated_roots_to(p, bits)? {

@@ -176,7 +176,7 @@ fn a_mistake_that_no_answer_shows_must_be_declared() {
     );
     assert_eq!(failing(&some), [""; 0]);
     assert_eq!(undeclared(&some), ["equation 1: l -> 1 in m*l*theta'^2*sin(theta)"]);
-    assert_eq!(undeclared(&text), [""; 0]);
+    assert_eq!(undeclared(text), [""; 0]);
     // Declared although every answer shows it.
     let stale = text.replacen(DECLARED, &format!("{DECLARED}\n    - \"equation 1: b*x'\""), 1);
     assert_eq!(
