@@ -73,80 +73,112 @@ fn first_id(submission: &Submission) -> Option<&str> {
     let stands_in = ["student.missing", "student.id_missing"];
     let first = submission.students.first()?;
     let missing = submission.findings.iter().any(|finding| stands_in.contains(&finding.code));
-    (!missing || first.id != submission.id).then_some(first.id.as_str())
+    // Somebody without an id has the file's; who states the same id after them is not counted again, who did before is.
+    let twice = submission.students.iter().filter(|student| student.id == submission.id).count() > 1;
+    (!missing || twice || first.id != submission.id).then_some(first.id.as_str())
 }
 
 /// A lab with everything computed that marking needs.
 pub struct Bench {
-    pub lab: LabDefinition,
+    pub lab: Arc<LabDefinition>,
     pub reference: Reference,
     pub catalogue: Catalogue,
     pub kit: ReportKit,
 }
 
 impl Bench {
-    /// Errors: in words, what does not work with these numbers.
-    pub fn new(lab: &LabDefinition, kit: &ReportKit, variant: &Variant) -> Result<Self, String> {
-        let lab = lab.with_variant(variant).map_err(|errors| errors.to_string())?;
-        let reference = Reference::compute(&lab).map_err(|error| error.to_string())?;
+    /// `own` is the whole reference of the lab's own values. Errors: in words, what does not work with these numbers.
+    fn new(lab: Arc<LabDefinition>, own: &Reference, kit: &ReportKit) -> Result<Self, String> {
+        let reference = Reference::for_marking(&lab, own).map_err(|error| error.to_string())?;
         let catalogue = Catalogue::new(&lab, &reference);
         let kit = kit.with_numbers(&lab, &reference).map_err(|error| error.to_string())?;
         Ok(Self { lab, reference, catalogue, kit })
     }
 }
 
-/// Benches are made when they are needed; the most lately used are kept.
+/// Labs with the values of variants, and benches: made when they are needed; the most lately used are kept.
 ///
 /// What is kept decides how long a run takes, never what comes out.
-pub struct Benches {
-    kept: Mutex<Kept>,
+pub struct Benches<'a> {
+    lab: &'a LabDefinition,
+    reference: &'a Reference,
+    kit: &'a ReportKit,
+    labs: Kept<Arc<LabDefinition>>,
+    benches: Kept<Bench>,
 }
 
-/// Benches kept at a time. One takes a megabyte or a few.
-const MOST_KEPT: usize = 24;
+/// Kept at a time. A bench takes a megabyte or a few, a lab a tenth of that; as many labs as are read before they are marked.
+const MOST_BENCHES: usize = 24;
+const MOST_LABS: usize = 96;
 
-#[derive(Default)]
-struct Kept {
-    clock: u64,
-    benches: BTreeMap<Variant, (u64, Arc<Result<Bench, String>>)>,
-}
-
-impl Benches {
-    pub fn new() -> Self {
-        Self { kept: Mutex::default() }
+impl<'a> Benches<'a> {
+    /// `reference` is that of the lab's own values, whole.
+    pub fn new(lab: &'a LabDefinition, reference: &'a Reference, kit: &'a ReportKit) -> Self {
+        Self { lab, reference, kit, labs: Kept::new(MOST_LABS), benches: Kept::new(MOST_BENCHES) }
     }
 
-    pub fn get(&self, lab: &LabDefinition, kit: &ReportKit, variant: &Variant) -> Arc<Result<Bench, String>> {
-        if let Some(bench) = self.kept().find(variant) {
-            return bench;
+    /// Errors: in words, what does not work with these values.
+    pub fn lab(&self, variant: &Variant) -> Arc<Result<Arc<LabDefinition>, String>> {
+        self.labs.get(variant, || {
+            self.lab.with_variant(variant).map(Arc::new).map_err(|errors| errors.to_string())
+        })
+    }
+
+    pub fn get(&self, variant: &Variant) -> Arc<Result<Bench, String>> {
+        self.benches.get(variant, || match &*self.lab(variant) {
+            Ok(lab) => Bench::new(Arc::clone(lab), self.reference, self.kit),
+            Err(why) => Err(why.clone()),
+        })
+    }
+}
+
+/// The most lately used of what variants need.
+struct Kept<T> {
+    most: usize,
+    shelf: Mutex<Shelf<T>>,
+}
+
+struct Shelf<T> {
+    clock: u64,
+    kept: BTreeMap<Variant, (u64, Arc<Result<T, String>>)>,
+}
+
+impl<T> Kept<T> {
+    fn new(most: usize) -> Self {
+        Self { most, shelf: Mutex::new(Shelf { clock: 0, kept: BTreeMap::new() }) }
+    }
+
+    fn get(&self, variant: &Variant, make: impl FnOnce() -> Result<T, String>) -> Arc<Result<T, String>> {
+        if let Some(known) = self.shelf().find(variant) {
+            return known;
         }
         // Two threads may make the same one: both are the same, and neither waits.
-        let bench = Arc::new(Bench::new(lab, kit, variant));
-        self.kept().keep(variant, &bench);
-        bench
+        let made = Arc::new(make());
+        self.shelf().keep(variant, &made, self.most);
+        made
     }
 
     /// What is kept is whole even if somebody failed while looking.
-    fn kept(&self) -> std::sync::MutexGuard<'_, Kept> {
-        self.kept.lock().unwrap_or_else(PoisonError::into_inner)
+    fn shelf(&self) -> std::sync::MutexGuard<'_, Shelf<T>> {
+        self.shelf.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-impl Kept {
-    fn find(&mut self, variant: &Variant) -> Option<Arc<Result<Bench, String>>> {
+impl<T> Shelf<T> {
+    fn find(&mut self, variant: &Variant) -> Option<Arc<Result<T, String>>> {
         self.clock += 1;
-        let (used, bench) = self.benches.get_mut(variant)?;
+        let (used, known) = self.kept.get_mut(variant)?;
         *used = self.clock;
-        Some(Arc::clone(bench))
+        Some(Arc::clone(known))
     }
 
-    fn keep(&mut self, variant: &Variant, bench: &Arc<Result<Bench, String>>) {
+    fn keep(&mut self, variant: &Variant, made: &Arc<Result<T, String>>, most: usize) {
         self.clock += 1;
-        self.benches.insert(variant.clone(), (self.clock, Arc::clone(bench)));
-        while self.benches.len() > MOST_KEPT {
-            let oldest = self.benches.iter().min_by_key(|(_, (used, _))| *used);
+        self.kept.insert(variant.clone(), (self.clock, Arc::clone(made)));
+        while self.kept.len() > most {
+            let oldest = self.kept.iter().min_by_key(|(_, (used, _))| *used);
             let Some(oldest) = oldest.map(|(variant, _)| variant.clone()) else { return };
-            self.benches.remove(&oldest);
+            self.kept.remove(&oldest);
         }
     }
 }
@@ -164,9 +196,8 @@ pub fn read_with_own_values(
     (submission, own.values(lab))
 }
 
-/// What an answer file may hold, with a variant's values for the letters; `None` when the lab cannot be read with them, which
-/// marking tells.
-pub fn own_sheet(lab: &LabDefinition, variant: &Variant) -> Option<AnswerSheet> {
+/// What an answer file may hold, with a variant's values for the letters; `None` when the lab cannot be read with them.
+fn own_sheet(lab: &LabDefinition, variant: &Variant) -> Option<AnswerSheet> {
     lab.with_variant(variant).ok().map(|lab| lab.sheet)
 }
 
@@ -193,7 +224,7 @@ impl WithoutNumbers {
             let of = |point: &str| SystemRef { model: model.id.clone(), operating_point: point.to_owned() };
             model.operating_points.retain(|point| !lab.is_varied(&of(&point.id)));
         }
-        reference.simulations.clear();
+        reference.simulations.retain(|simulation| !lab.is_simulation_varied(&simulation.id));
         let mut lab = lab.clone();
         lab.parameters.clear();
         let kit = kit.with_numbers(&lab, &reference)?;

@@ -41,7 +41,9 @@ pub enum RosterError {
 /// A course may have so many students, and a list so many bytes.
 const MOST_STUDENTS: usize = 20_000;
 const MOST_BYTES: usize = 8 << 20;
-const MOST_LETTERS: usize = 200;
+/// As an answer file holds them.
+const MOST_OF_AN_ID: usize = 100;
+const MOST_OF_A_NAME: usize = 200;
 
 /// Column names, as letters and digits only, the likeliest first.
 const ID: &[&str] = &[
@@ -90,7 +92,7 @@ impl Roster {
         };
         let Some(id) = column(ID) else {
             let found: Vec<String> =
-                header.iter().take(12).map(|one| format!("`{}`", clipped(one))).collect();
+                header.iter().take(12).map(|one| format!("`{}`", clipped(one, MOST_OF_A_NAME))).collect();
             return Err(RosterError::NoId { name, found: sanitize(&found.join(", ")).to_string() });
         };
         let (whole, first, last) = (column(NAME), column(FIRST), column(LAST));
@@ -103,7 +105,11 @@ impl Roster {
                 "" => [cell(first), cell(last)].join(" ").trim().to_owned(),
                 name => name.to_owned(),
             };
-            roster.add(RosterStudent { id: clipped(cell(Some(id))), name: clipped(&name), line });
+            roster.add(RosterStudent {
+                id: clipped(cell(Some(id)), MOST_OF_AN_ID),
+                name: clipped(&name, MOST_OF_A_NAME),
+                line,
+            });
             if roster.students.len() >= MOST_STUDENTS {
                 roster.warnings.push(format!("only the first {MOST_STUDENTS} students are read"));
                 break;
@@ -167,8 +173,8 @@ fn separator(text: &str) -> u8 {
     counts.into_iter().rev().max_by_key(|(_, count)| *count).map_or(b',', |(one, _)| one)
 }
 
-fn clipped(text: &str) -> String {
-    text.trim().chars().take(MOST_LETTERS).collect()
+fn clipped(text: &str, most: usize) -> String {
+    text.trim().chars().take(most).collect()
 }
 
 #[cfg(test)]

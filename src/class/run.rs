@@ -2,7 +2,7 @@ use super::Roster;
 use super::gradebook::Gradebook;
 use super::intake::{AnswerFile, UniqueNames};
 use super::marked::{Marked, our_failure, unreadable_submission};
-use super::numbers::{Bench, Benches, Numbers, WithoutNumbers, numbers, own_sheet};
+use super::numbers::{Bench, Benches, Numbers, WithoutNumbers, numbers};
 use super::others::Others;
 use super::outcome::Outcome;
 use super::results::results_line;
@@ -88,8 +88,11 @@ pub fn grade_class(job: &ClassJob<'_>, progress: &dyn Fn(usize)) -> Result<Outco
     let mut statistics = Statistics::new(job.lab);
     let mut names = UniqueNames::default();
     let mut seen = StudentsSeen::default();
-    let desk =
-        Desk { job, benches: Benches::new(), without: WithoutNumbers::new(job.lab, job.reference, job.kit)? };
+    let desk = Desk {
+        job,
+        benches: Benches::new(job.lab, job.reference, job.kit),
+        without: WithoutNumbers::new(job.lab, job.reference, job.kit)?,
+    };
     let mut others = pool.install(|| Others::new(job));
     let mut done = 0;
 
@@ -217,7 +220,7 @@ struct Named {
 /// What submissions are marked with.
 struct Desk<'a> {
     job: &'a ClassJob<'a>,
-    benches: Benches,
+    benches: Benches<'a>,
     without: WithoutNumbers,
 }
 
@@ -227,8 +230,10 @@ impl Desk<'_> {
         let lab = self.job.lab;
         let mut submission = read_submission(file, &lab.sheet);
         let mut own = numbers(lab, &mut submission, self.job.roster);
-        if let Some(sheet) = own.variant().and_then(|variant| own_sheet(lab, variant)) {
-            submission = read_submission(file, &sheet);
+        let theirs = own.variant().map(|variant| self.benches.lab(variant));
+        // That a lab does not work with somebody's values is told by marking.
+        if let Some(Ok(theirs)) = theirs.as_deref() {
+            submission = read_submission(file, &theirs.sheet);
             own = numbers(lab, &mut submission, self.job.roster);
         }
         (submission, own)
@@ -250,7 +255,7 @@ impl Desk<'_> {
         // Members of a group that are still together were given the same.
         let marks = job.marks.and_then(|file| Some(file.marks_for(&submission.students.first()?.id)));
         let mut failed = submission.findings.iter().any(|f| f.code == our_failure().code);
-        let bench = numbers.variant().map(|variant| self.benches.get(job.lab, job.kit, variant));
+        let bench = numbers.variant().map(|variant| self.benches.get(variant));
         let bench = bench.as_deref();
         let marking = AssertUnwindSafe(|| self.marked(&numbers, bench, &submission, marks));
         let scorecard = match catch_unwind(marking) {
@@ -311,7 +316,7 @@ impl Desk<'_> {
                     return Ok(grade(&own.lab, &own.reference, &own.catalogue, submission, marks));
                 }
                 let cards = members.iter().filter_map(|(id, variant)| {
-                    let theirs = self.benches.get(job.lab, job.kit, variant);
+                    let theirs = self.benches.get(variant);
                     let theirs = theirs.as_ref().as_ref().ok()?;
                     let none = Catalogue::default();
                     let scorecard = grade(&theirs.lab, &theirs.reference, &none, submission, None);

@@ -57,6 +57,23 @@ impl Catalogue {
         Self { systems }
     }
 
+    /// How many different wrong functions single mistakes lead to, by estimate.
+    pub fn wrong_functions(&self) -> usize {
+        self.systems.iter().map(|system| system.wrong.len()).sum()
+    }
+
+    /// (system, change) of mistakes that lead to a right function or to none, by estimate.
+    pub fn without_effect(&self) -> BTreeSet<(String, String)> {
+        let silent = self.systems.iter().flat_map(|system| {
+            let causes = system.wrong.iter().flat_map(|wrong| &wrong.causes);
+            let told: BTreeSet<usize> = causes.map(|(mistake, _)| *mistake).collect();
+            let all = system.estimates.mistakes().iter().enumerate();
+            let silent = all.filter(move |(place, _)| !told.contains(place));
+            silent.map(|(_, mistake)| (system.of.to_string(), mistake.change.clone()))
+        });
+        silent.collect()
+    }
+
     /// The transfer functions of `of` that the mistakes with these changes lead to.
     pub(super) fn led_to_by(&self, of: &SystemRef, changes: &[&str]) -> Vec<TransferFunction> {
         let system = self.systems.iter().find(|system| system.of == *of);

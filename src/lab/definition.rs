@@ -6,6 +6,7 @@ use crate::nonlinear::{Chain, Nonlinearity};
 use crate::prose::Phrase;
 use crate::source::{SourceText, Span};
 use crate::submission::{AnswerSheet, AnsweredIn, FieldKind, NonlinearityKind, Submission};
+use std::collections::BTreeSet;
 use std::fmt;
 
 /// A lab, checked: every name resolves, points add up, equations parse.
@@ -119,6 +120,8 @@ pub struct SimulationDefinition {
     pub nonlinearity: Nonlinearity,
     /// Shown in the question of this id.
     pub shown_in: String,
+    /// Names of parameters in its formulas.
+    pub letters: BTreeSet<String>,
 }
 
 #[derive(Clone, Debug)]

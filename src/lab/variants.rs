@@ -1,6 +1,7 @@
 use super::{Check, Criterion, Curve, LabDefinition, LabErrors, SystemRef};
 use crate::algebra::{Expression, Rational};
 use crate::source::Span;
+use crate::submission::AnsweredIn;
 use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, BTreeSet};
 use unicode_normalization::UnicodeNormalization;
@@ -101,13 +102,23 @@ impl LabDefinition {
     /// Whether what is right for a system differs from student to student: a letter that varies stands in its equations or in
     /// what is said of its rest, or a parameter there follows from one.
     pub fn is_varied(&self, of: &SystemRef) -> bool {
-        let Some(rule) = &self.variants else { return false };
         let Some(definition) = self.models.iter().find(|model| model.id == of.model) else { return false };
         let sides = definition.model.equations.iter().flat_map(|equation| [&equation.left, &equation.right]);
         let points = definition.operating_points.iter().filter(|point| point.id == of.operating_point);
         let rest =
             points.flat_map(|point| &point.at_text).filter_map(|(_, text)| Expression::parse(text).ok());
-        let mut letters: BTreeSet<String> = sides.cloned().chain(rest).flat_map(letters_of).collect();
+        self.vary(sides.cloned().chain(rest).flat_map(letters_of).collect())
+    }
+
+    /// Whether a simulation differs from student to student.
+    pub fn is_simulation_varied(&self, id: &str) -> bool {
+        let mut own = self.simulations.iter().filter(|simulation| simulation.id == id);
+        own.any(|simulation| self.vary(simulation.letters.clone()))
+    }
+
+    /// Whether one of these letters differs from student to student, or follows from one that does.
+    fn vary(&self, mut letters: BTreeSet<String>) -> bool {
+        let Some(rule) = &self.variants else { return false };
         // A derived parameter may follow from derived ones, but from each of them once.
         for _ in 0..self.parameters.len() {
             let derived = self.parameters.iter().filter(|one| letters.contains(&one.name));
@@ -118,10 +129,20 @@ impl LabDefinition {
         rule.parameters.iter().any(|one| letters.contains(&one.name))
     }
 
-    /// Whether a criterion judges by numbers that may differ from student to student; simulations may take any parameter.
+    /// Whether a transfer function is asked for in letters.
+    pub fn is_asked_in_letters(&self, of: &SystemRef) -> bool {
+        let mut criteria = self.questions.iter().flat_map(|question| &question.criteria);
+        criteria.any(|criterion| {
+            let letters = self.sheet.letters.get(&criterion.field);
+            criterion.check.transfer_function() == Some(of)
+                && letters.is_some_and(|field| field.answered_in == AnsweredIn::Letters)
+        })
+    }
+
+    /// Whether a criterion judges by numbers that may differ from student to student.
     pub fn judges_varied(&self, criterion: &Criterion) -> bool {
         match &criterion.check {
-            Check::Plot { curve: Curve::Simulation { .. }, .. } => self.variants.is_some(),
+            Check::Plot { curve: Curve::Simulation { id }, .. } => self.is_simulation_varied(id),
             check => check.system().is_some_and(|of| self.is_varied(of)),
         }
     }
@@ -136,9 +157,13 @@ fn letters_of(formula: Expression) -> Vec<String> {
     formula.symbols().into_iter().map(|symbol| symbol.name).collect()
 }
 
-/// An id without what people type differently: compatibility forms made one (NFKC), lower case, letters and digits only.
+/// An answer file holds so many characters of an id.
+const MOST_OF_AN_ID: usize = 100;
+
+/// An id without what people type differently: compatibility forms made one (NFKC), lower case, letters and digits only. Of a
+/// longer id the first 100 characters count, blanks before it aside.
 pub fn folded_id(id: &str) -> String {
-    let lower = id.nfkc().collect::<String>().to_lowercase();
+    let lower = id.trim().chars().take(MOST_OF_AN_ID).nfkc().collect::<String>().to_lowercase();
     lower.chars().filter(|letter| letter.is_alphanumeric()).collect()
 }
 
@@ -206,6 +231,11 @@ mod tests {
         let rule = rule("x", &[("M", &["1", "2"])]);
         assert_eq!(rule.of("EE-001"), rule.of("ee001"));
         assert_eq!(rule.of("--"), None);
+        assert_eq!(
+            folded_id(&format!(" {}", "7".repeat(300))),
+            "7".repeat(100),
+            "as an answer file holds it"
+        );
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! Every variant of a lab is solvable and equally hard, its mistakes stay distinguishable, and its answers are its own.
 //!
-//! Linear models, poles and responses are worked out for every variant. What takes longer (comparisons with the nonlinear
-//! equations, the catalogue of mistakes, an answer sheet that is worked out and marked) is done for a few of them: every one when
-//! there are no more than [`MOST_CLOSELY`], else so many, evenly spread, the first and the last among them.
+//! Linear models, poles and responses are worked out for every variant, and its mistakes are followed by estimate. What takes longer
+//! (mistakes followed exactly, an answer sheet that is worked out and marked) is done for a few of them: evenly spread, the first
+//! and the last among them, and for mistakes those where the estimates differ from those for the lab's own values.
 
 use super::Check;
 use super::computed_answer::{computed_answer, is_computed};
@@ -15,8 +15,9 @@ use crate::submission::Submission;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Variants that are looked at closely.
-pub const MOST_CLOSELY: usize = 24;
+/// Variants whose mistakes are followed exactly: so many evenly spread, and so many of those that stand out by estimate.
+const MOST_EXACTLY: usize = 6;
+const MOST_STANDING_OUT: usize = 24;
 /// Variants whose answers are worked out and marked.
 const MOST_ANSWERED: usize = 6;
 
@@ -52,12 +53,8 @@ pub(super) fn variants_are_fair(lab: &LabDefinition, reference: &Reference) -> V
         .collect();
     checks.push(equally_hard(rule, &difficulty(lab, reference), &solved, &check));
     checks.push(different(rule, &solved, &check));
-    let close: Vec<&Variant> = spread(&all, MOST_CLOSELY);
-    let known = undeclared(lab, reference);
-    let closely: Vec<(&Variant, Result<usize, String>)> =
-        close.par_iter().map(|variant| (*variant, closely(lab, variant, &known))).collect();
-    checks.push(told_apart(rule, lab, reference, &closely, all.len(), &check));
-    checks.push(own_answers(lab, rule, &spread(&all, MOST_ANSWERED), &check));
+    checks.push(told_apart(rule, lab, reference, &solved, &check));
+    checks.push(own_answers(lab, rule, &spread(&all.iter().collect::<Vec<_>>(), MOST_ANSWERED), &check));
     checks
 }
 
@@ -67,6 +64,27 @@ struct Looked {
     difficulty: Vec<(String, String)>,
     /// The transfer functions asked for, as text of exact fractions.
     answers: String,
+    mistakes: Mistakes,
+}
+
+/// What mistakes lead to, by estimate.
+#[derive(Clone, Debug, PartialEq)]
+struct Mistakes {
+    wrong_functions: usize,
+    without_effect: BTreeSet<(String, String)>,
+}
+
+impl Mistakes {
+    fn of(lab: &LabDefinition, reference: &Reference) -> Self {
+        let catalogue = Catalogue::new(lab, reference);
+        Self { wrong_functions: catalogue.wrong_functions(), without_effect: catalogue.without_effect() }
+    }
+
+    /// Nine tenths as many wrong functions, and no mistake without effect that has one with the lab's own values.
+    fn is_like(&self, own: &Self) -> bool {
+        self.wrong_functions * 10 >= own.wrong_functions * 9
+            && self.without_effect.is_subset(&own.without_effect)
+    }
 }
 
 impl Looked {
@@ -80,6 +98,7 @@ impl Looked {
         Ok(Self {
             answers: functions.collect::<Vec<_>>().join("; "),
             difficulty: difficulty(&lab, &reference),
+            mistakes: Mistakes::of(&lab, &reference),
         })
     }
 }
@@ -212,10 +231,9 @@ fn different(
     check("different", format!("{} different sets of transfer functions{example}", known.len()), true)
 }
 
-/// The whole reference, and how many different wrong functions its mistakes lead to.
-fn closely(lab: &LabDefinition, variant: &Variant, known: &[String]) -> Result<usize, String> {
-    let lab = lab.with_variant(variant).map_err(|errors| errors.to_string())?;
-    let reference = Reference::compute(&lab).map_err(|error| error.to_string())?;
+/// How many different wrong functions the mistakes lead to, exactly.
+fn exactly(lab: &LabDefinition, variant: &Variant, known: &[String]) -> Result<usize, String> {
+    let (lab, reference) = light(lab, variant)?;
     wrong_functions(&lab, &reference, known)
 }
 
@@ -224,27 +242,45 @@ fn told_apart(
     rule: &VariantRule,
     lab: &LabDefinition,
     reference: &Reference,
-    closely: &[(&Variant, Result<usize, String>)],
-    all: usize,
+    solved: &[(&Variant, &Looked)],
     check: &impl Fn(&str, String, bool) -> Check,
 ) -> Check {
     let what = "mistakes told apart";
-    if let Some((variant, Err(why))) = closely.iter().find(|(_, found)| found.is_err()) {
+    let own = Mistakes::of(lab, reference);
+    let mut unlike: Vec<&(&Variant, &Looked)> =
+        solved.iter().filter(|(_, looked)| !looked.mistakes.is_like(&own)).collect();
+    let silent = |looked: &Looked| !looked.mistakes.without_effect.is_subset(&own.without_effect);
+    // Mistakes without effect first, then the fewest functions.
+    unlike.sort_by_key(|(variant, looked)| (!silent(looked), looked.mistakes.wrong_functions, *variant));
+    let all: Vec<&Variant> = solved.iter().map(|(variant, _)| *variant).collect();
+    let mut close: BTreeSet<&Variant> = spread(&all, MOST_EXACTLY).into_iter().collect();
+    close.extend(unlike.iter().take(MOST_STANDING_OUT).map(|(variant, _)| *variant));
+    let close: Vec<&Variant> = close.into_iter().collect();
+    let known = undeclared(lab, reference);
+    let found: Vec<(&Variant, Result<usize, String>)> =
+        close.par_iter().map(|variant| (*variant, exactly(lab, variant, &known))).collect();
+    if let Some((variant, Err(why))) = found.iter().find(|(_, found)| found.is_err()) {
         return check(what, format!("{}: {why}", rule.words(variant)), false);
     }
-    let own = wrong_functions(lab, reference, &undeclared(lab, reference)).unwrap_or(0);
-    let worst = closely.iter().filter_map(|(variant, found)| Some((found.as_ref().ok()?, *variant)));
-    let Some((worst, variant)) = worst.min() else { return check(what, "none to look at".to_owned(), true) };
-    let amount = if closely.len() == all {
-        format!("in all {all}")
-    } else {
-        format!("in {} of {all}, evenly spread", closely.len())
-    };
+    let worst = solved.iter().map(|(variant, looked)| (looked.mistakes.wrong_functions, *variant)).min();
+    let Some((worst, variant)) = worst else { return check(what, "none to look at".to_owned(), true) };
+    let exact_own = wrong_functions(lab, reference, &known).unwrap_or(0);
+    let poorest = found.iter().filter_map(|(variant, found)| Some((found.as_ref().ok()?, *variant))).min();
+    if let Some((count, variant)) = poorest.filter(|(count, _)| **count * 10 < exact_own * 9) {
+        let found = format!(
+            "only {count} different wrong functions with {}; {exact_own} with the lab's own values",
+            rule.words(variant)
+        );
+        return check(what, found, false);
+    }
     let found = format!(
-        "{amount}, at least {worst} different wrong functions (with {}); {own} with the lab's own values",
-        rule.words(variant)
+        "in all {}, at least {worst} different wrong functions (with {}), {} with the lab's own values; {} of them followed exactly",
+        solved.len(),
+        rule.words(variant),
+        own.wrong_functions,
+        close.len(),
     );
-    check(what, found, worst * 10 >= own * 9)
+    check(what, found, true)
 }
 
 /// A computed answer earns everything by its own values, and not by another's.
@@ -328,9 +364,9 @@ fn same_answers(one: &Reference, two: &Reference) -> bool {
 }
 
 /// At most `most` of them, evenly spread, the first and the last among them.
-fn spread(all: &[Variant], most: usize) -> Vec<&Variant> {
+fn spread<'a>(all: &[&'a Variant], most: usize) -> Vec<&'a Variant> {
     if all.len() <= most {
-        return all.iter().collect();
+        return all.to_vec();
     }
-    (0..most).filter_map(|number| all.get(number * (all.len() - 1) / (most - 1))).collect()
+    (0..most).filter_map(|number| all.get(number * (all.len() - 1) / (most - 1)).copied()).collect()
 }

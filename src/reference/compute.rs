@@ -1,7 +1,7 @@
 use super::response::dc_gain;
 use super::*;
 use crate::algebra::{Rational, from_f64};
-use crate::lab::{LabDefinition, ModelDefinition, OperatingPointDefinition, SimulationDefinition};
+use crate::lab::{LabDefinition, ModelDefinition, OperatingPointDefinition, SimulationDefinition, SystemRef};
 use crate::lti::{InputKind, ResponseError, RootError, roots, stability};
 use crate::model::{
     Exact, LetterDerivation, LettersError, ModelError, StaticFunction, Tangent, compare, compare_as_usual,
@@ -53,6 +53,34 @@ impl ReferenceError {
     }
 }
 
+/// How much of a reference is worked out besides the numbers.
+#[derive(Clone, Copy)]
+enum Extent<'a> {
+    /// Letters and comparisons.
+    Whole,
+    Numbers,
+    /// What [`Reference::for_marking`] needs of this variant, beside the lab's own reference.
+    Marking(&'a LabDefinition, &'a Reference),
+}
+
+impl<'a> Extent<'a> {
+    fn letters(self, of: &SystemRef) -> bool {
+        match self {
+            Self::Whole => true,
+            Self::Numbers => false,
+            Self::Marking(lab, _) => lab.is_asked_in_letters(of),
+        }
+    }
+
+    /// What is known of a point that no varied parameter enters.
+    fn known(self, of: &SystemRef) -> Option<&'a OperatingPointReference> {
+        match self {
+            Self::Marking(lab, own) if !lab.is_varied(of) => own.operating_point(of),
+            _ => None,
+        }
+    }
+}
+
 /// One choice of a value for every parameter.
 struct ParameterChoice {
     values: BTreeMap<String, Rational>,
@@ -65,7 +93,7 @@ impl Reference {
     ///
     /// Errors: an operating point that is not an equilibrium, a response or a simulation that leaves the range of numbers.
     pub fn compute(lab: &LabDefinition) -> Result<Self, ReferenceError> {
-        let models = model_references(lab, true)?;
+        let models = model_references(lab, Extent::Whole)?;
         let simulations = lab.simulations.iter().map(simulation_reference).collect::<Result<_, _>>()?;
         Ok(Self { lab: lab.id.clone(), models, simulations })
     }
@@ -74,7 +102,24 @@ impl Reference {
     ///
     /// Errors: as [`Reference::compute`].
     pub fn numbers(lab: &LabDefinition) -> Result<Self, ReferenceError> {
-        Ok(Self { lab: lab.id.clone(), models: model_references(lab, false)?, simulations: Vec::new() })
+        Ok(Self {
+            lab: lab.id.clone(),
+            models: model_references(lab, Extent::Numbers)?,
+            simulations: Vec::new(),
+        })
+    }
+
+    /// What marking and its reports need of a variant: comparisons and simulations that no varied parameter enters are those of
+    /// `own`, which is the whole reference of the lab's own values, and letters are derived only where they are asked for.
+    ///
+    /// Errors: as [`Reference::compute`].
+    pub fn for_marking(lab: &LabDefinition, own: &Self) -> Result<Self, ReferenceError> {
+        let models = model_references(lab, Extent::Marking(lab, own))?;
+        let simulations = lab.simulations.iter().map(|definition| {
+            let known = own.simulation(&definition.id).filter(|_| !lab.is_simulation_varied(&definition.id));
+            known.map_or_else(|| simulation_reference(definition), |known| Ok(known.clone()))
+        });
+        Ok(Self { lab: lab.id.clone(), models, simulations: simulations.collect::<Result<_, _>>()? })
     }
 
     /// The operating point `of` names, if there is one.
@@ -107,21 +152,20 @@ fn parameter_choices(lab: &LabDefinition) -> Vec<ParameterChoice> {
     choices
 }
 
-/// `whole`: with letters and comparisons.
-fn model_references(lab: &LabDefinition, whole: bool) -> Result<Vec<ModelReference>, ReferenceError> {
+fn model_references(lab: &LabDefinition, extent: Extent<'_>) -> Result<Vec<ModelReference>, ReferenceError> {
     let choices = parameter_choices(lab);
-    lab.models.iter().map(|model| model_reference(model, &choices, whole)).collect()
+    lab.models.iter().map(|model| model_reference(model, &choices, extent)).collect()
 }
 
 fn model_reference(
     definition: &ModelDefinition,
     choices: &[ParameterChoice],
-    whole: bool,
+    extent: Extent<'_>,
 ) -> Result<ModelReference, ReferenceError> {
     let operating_points = definition
         .operating_points
         .iter()
-        .map(|point| operating_point_reference(definition, point, choices, whole))
+        .map(|point| operating_point_reference(definition, point, choices, extent))
         .collect::<Result<_, _>>()?;
     Ok(ModelReference { id: definition.id.clone(), title: definition.title.clone(), operating_points })
 }
@@ -130,7 +174,7 @@ fn operating_point_reference(
     definition: &ModelDefinition,
     point: &OperatingPointDefinition,
     choices: &[ParameterChoice],
-    whole: bool,
+    extent: Extent<'_>,
 ) -> Result<OperatingPointReference, ReferenceError> {
     let accepted = choices
         .iter()
@@ -152,10 +196,12 @@ fn operating_point_reference(
             horizon_s,
         )
     };
-    let comparison = match &point.comparison {
-        Some(comparison) if whole => Some(compared(comparison)?),
-        None if whole => as_usual(),
-        _ => None,
+    let of = SystemRef { model: definition.id.clone(), operating_point: point.id.clone() };
+    let comparison = match (extent.known(&of), &point.comparison) {
+        (Some(known), _) => known.comparison.clone(),
+        _ if matches!(extent, Extent::Numbers) => None,
+        (None, Some(comparison)) => Some(compared(comparison)?),
+        (None, None) => as_usual(),
     };
     let derive = || {
         let (model, values) = (&definition.model, &choices[0].values);
@@ -173,7 +219,7 @@ fn operating_point_reference(
         tangent: tangent_reference(definition, point, &choices[0], &accepted[0])?,
         accepted,
         // Without letters nobody looks at why there are none.
-        letters: if whole { derive() } else { Err(LettersError::OverBudget) },
+        letters: if extent.letters(&of) { derive() } else { Err(LettersError::OverBudget) },
         comparison,
     })
 }

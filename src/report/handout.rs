@@ -6,7 +6,9 @@ use super::kit::{ReportError, environment, render};
 use super::math;
 use super::numbers::{counted, typeset};
 use super::prose;
-use crate::lab::{LabDefinition, ModelDefinition, OperatingPointDefinition, Question};
+use crate::lab::{
+    Check, LabDefinition, ModelDefinition, OperatingPointDefinition, Question, SimulationDefinition,
+};
 use crate::source::sanitize;
 use minijinja::Environment;
 use serde::Serialize;
@@ -107,6 +109,7 @@ fn page(lab: &LabDefinition, student: Option<HandoutStudent<'_>>) -> HandoutPage
         simulations: lab
             .simulations
             .iter()
+            .filter(|one| !names_an_answer(lab, one))
             .map(|one| SimulationView {
                 title: one.title.clone(),
                 chain: super::answer_key::chain_words(one),
@@ -116,6 +119,13 @@ fn page(lab: &LabDefinition, student: Option<HandoutStudent<'_>>) -> HandoutPage
         name,
         id,
     }
+}
+
+/// Whether the question a simulation belongs to asks for the kind of a nonlinearity, which title and chain would tell.
+fn names_an_answer(lab: &LabDefinition, simulation: &SimulationDefinition) -> bool {
+    let mut questions = lab.questions.iter().filter(|question| question.id == simulation.shown_in);
+    questions
+        .any(|question| question.criteria.iter().any(|one| matches!(one.check, Check::Nonlinearity { .. })))
 }
 
 /// A line of somebody's text.

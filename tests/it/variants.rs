@@ -1,6 +1,8 @@
 //! A lab whose numbers differ from student to student, and a class that answers it.
 
 use polemark::lab::{self, LabDefinition};
+use polemark::reference::Reference;
+use polemark::report::HandoutKit;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -356,7 +358,7 @@ fn every_variant_is_proven() {
         "variants: solvable: all 60 have right answers",
         "variants: equally hard: the same orders",
         "variants: different: 60 different sets",
-        "variants: mistakes told apart: in 24 of 60, evenly spread, at least",
+        "variants: mistakes told apart: in all 60, at least",
         "variants: answers are one's own: computed answers of 6 variants earn",
     ] {
         assert!(told.contains(words), "{words}: {told}");
@@ -380,4 +382,201 @@ fn a_variant_of_another_kind_is_named() {
         told.contains("b = 5: pendulum.down:") && told.contains("2 real and 0 complex poles, not"),
         "{told}"
     );
+}
+
+/// A lab of one's own values with simulations into which they enter, and do not.
+fn with_simulations() -> LabDefinition {
+    let text = std::fs::read_to_string(LAB).expect("read");
+    let chain = |id: &str, limit: &str| {
+        format!(
+            "  {id}:\n    title: {id}\n    source: {{sine: {{amplitude: 8, frequency_rad_s: 1}}}}\n    chain: [{{saturation: \
+             {{limit: {limit}}}}}, {{transfer_function: {{num: [1], den: [1, 2]}}}}]\n    duration_s: 3\n    input: {{name: \
+             u, unit: V}}\n    output: {{name: y, unit: V}}\n    shown_in: bearing\n"
+        )
+    };
+    let simulations: String = [("number", "5"), ("common", "g/2"), ("own", "10*m"), ("follows", "w")]
+        .map(|(id, limit)| chain(id, limit))
+        .concat();
+    let text = text
+        .replace("\nmodels:", "  w: {formula: m*g, unit: N, description: weight}\n\nmodels:")
+        .replace("\nquestions:", &format!("\nsimulations:\n{simulations}\nquestions:"));
+    let source = polemark::source::SourceText::new("lab.yaml", text);
+    LabDefinition::parse(source).unwrap_or_else(|errors| panic!("{errors:#?}"))
+}
+
+#[test]
+fn a_simulation_varies_when_a_varied_parameter_enters_it() {
+    let lab = with_simulations();
+    for (id, varied) in
+        [("number", false), ("common", false), ("own", true), ("follows", true), ("none", false)]
+    {
+        assert_eq!(lab.is_simulation_varied(id), varied, "{id}");
+    }
+}
+
+#[test]
+fn what_is_shared_between_variants_is_what_each_would_have() {
+    let lab = with_simulations();
+    let own = Reference::compute(&lab).expect("a reference");
+    for id in ["ME-001", "ME-002"] {
+        let theirs = lab.with_variant(&lab.variant_of(id).expect("an id")).expect("a variant");
+        let (shared, whole) = (
+            Reference::for_marking(&theirs, &own).expect("a reference"),
+            Reference::compute(&theirs).expect("a reference"),
+        );
+        assert_eq!(format!("{:?}", shared.simulations), format!("{:?}", whole.simulations), "{id}");
+        let points = |reference: &Reference| -> Vec<String> {
+            let points = reference.models.iter().flat_map(|model| &model.operating_points);
+            points.map(|point| format!("{:?} {:?}", point.accepted, point.comparison)).collect()
+        };
+        assert_eq!(points(&shared), points(&whole), "{id}");
+    }
+}
+
+#[test]
+fn a_group_in_any_order_and_spelling_is_never_marked_down_for_its_order() {
+    let (lab, class) = (pendulum(), Class::new());
+    let one = given(&lab, "ME-001");
+    // (students, answers are right by ME-001, earned, the code of what is left to a person)
+    for (name, students, earns, code) in [
+        ("same", "students: [{id: me 001}, {id: ME-001}]", 20.0, None),
+        ("first", "students: [{id: ME-001}, {id: ME-002}, {id: ME-003}]", 20.0, None),
+        ("last", "students: [{id: ME-003}, {id: ME-002}, {id: ME-001}]", 1.0, Some("variant.member")),
+        ("dashes", "students: [{id: \"--\"}, {id: ME-001}]", 1.0, Some("variant.unknown")),
+        ("nameless", "students: [{name: A. Student}, {id: ME-001}]", 1.0, Some("variant.unknown")),
+        ("second", "students: [{id: ME-001}, {name: A. Student}]", 20.0, None),
+        ("ME-001", "students: [{id: ME-001}, {name: A. Student}]", 20.0, None),
+    ] {
+        class.hand_in("one.yaml", &answers(students, one));
+        std::fs::rename(class.path("in/one.yaml"), class.path(&format!("in/{name}.yaml"))).expect("renamed");
+        let line = &class.grade(&[])[&format!("{name}.yaml")];
+        std::fs::remove_file(class.path(&format!("in/{name}.yaml"))).expect("removed");
+        let codes: std::collections::BTreeSet<&str> = left(line).into_iter().map(|(_, code)| code).collect();
+        assert_eq!(codes.into_iter().collect::<Vec<_>>(), code.into_iter().collect::<Vec<_>>(), "{name}");
+        assert!(earned(line) >= earns, "{name}: {}", earned(line));
+        let items = line["items"].as_array().expect("items").iter();
+        let lost = items.filter(|item| item["verdict"] != "right" && item["verdict"] != "unmarked");
+        assert_eq!(lost.count(), 0, "{name}: nothing is a zero: {line:#}");
+    }
+}
+
+#[test]
+fn a_hostile_roster_of_300_stays_in_its_folder() {
+    let class = Class::new();
+    let long = "x".repeat(300);
+    let mut rows = vec!["id,name".to_owned()];
+    for (id, name) in [
+        ("../../x", "<script>alert(1)</script>"),
+        ("=cmd|calc", "@SUM(1)"),
+        ("<script>", "\u{202e}drawkcab"),
+        ("\u{200f}ME-9\u{200e}", "\u{1b}[31mred"),
+        ("CON", "con"),
+        ("..", "dots"),
+        ("", "nobody"),
+        ("--", "dashes"),
+        ("ME-1", "One"),
+        ("me 1", "One again"),
+        ("ME-1", "One twice"),
+        (long.as_str(), long.as_str()),
+    ] {
+        rows.push(format!("{id},{name}"));
+    }
+    rows.extend((0..288).map(|number| format!("S{number:03},Student {number}")));
+    std::fs::write(class.path("roster.csv"), rows.join("\n")).expect("written");
+    let told = class.run(&["handout", LAB, "--roster", "roster.csv", "--out", "a/b/sheets"], 0);
+    assert!(told.contains("296 sheets"), "{told}");
+    assert!(!told.contains('\u{1b}') && !told.contains('\u{202e}'), "{told}");
+    for words in ["`nobody` has no id", "`dashes` has no id", "is on line 10 already", "only in spelling"] {
+        assert!(told.contains(words), "{words}: {told}");
+    }
+    let mut folders = 0;
+    for entry in std::fs::read_dir(class.path("a/b/sheets")).expect("a folder") {
+        let entry = entry.expect("an entry").path();
+        if entry.is_dir() {
+            folders += 1;
+            let sheet = std::fs::read_to_string(entry.join("handout.html")).expect("a sheet");
+            assert!(!sheet.contains("<script") && !sheet.contains('\u{202e}'), "{}", entry.display());
+        }
+    }
+    assert_eq!(folders, 296);
+    for (folder, count) in [("a/b", 1), ("a", 1)] {
+        assert_eq!(
+            std::fs::read_dir(class.path(folder)).expect("a folder").count(),
+            count,
+            "nothing beside it"
+        );
+    }
+    // An answer file keeps to the values that were handed out, whatever the id.
+    let list = class.read("a/b/sheets/variants.csv");
+    let mut reader = csv_rows(&list);
+    assert_eq!(reader.remove(0)[2], "folder");
+    for row in reader.iter().take(10) {
+        let file = format!("a/b/sheets/{}/answers.yaml", row[2].trim_start_matches('\''));
+        let echo = class.run(&["check", &file, "--lab", LAB], 0);
+        let values = format!("m = {}, l = {}, b = {}.", row[3], row[4], row[5]);
+        assert!(echo.contains(&values), "{file}: {values}: {echo}");
+    }
+}
+
+/// Rows without line breaks in them; no cell here has a comma.
+fn csv_rows(text: &str) -> Vec<Vec<String>> {
+    text.lines().map(|line| line.split(',').map(|cell| cell.trim_matches('"').to_owned()).collect()).collect()
+}
+
+#[test]
+fn a_roster_with_nul_in_it_is_refused_or_cleaned() {
+    let class = Class::new();
+    std::fs::write(class.path("roster.csv"), "id,name\nA\0B,x\n").expect("written");
+    let output = Command::new(env!("CARGO_BIN_EXE_polemark"))
+        .args(["handout", LAB, "--roster", "roster.csv", "--out", "sheets"])
+        .current_dir(class.folder.path())
+        .output()
+        .expect("the program starts");
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(matches!(output.status.code(), Some(0 | 2)) && !told.contains("panicked"), "{told}");
+    if output.status.code() == Some(0) {
+        assert!(!class.read("sheets/A-B/handout.html").contains('\0'));
+    }
+}
+
+/// Numbers and words that a sheet must not hold: coefficients, poles and features, to three figures and more.
+#[test]
+fn sheets_hold_nothing_of_the_answers() {
+    for name in [LAB, "ee361-lab3", "dc-motor", "inverted-pendulum"] {
+        let lab = lab::load(name).expect("a lab");
+        let sheet = HandoutKit::new().expect("templates").sheet(&lab, None);
+        let (_, body) = sheet.split_once("<body").expect("a body");
+        let asked: String = std::iter::once(lab.title.as_str())
+            .chain(lab.questions.iter().flat_map(|question| {
+                let prompts = question.fields.iter().map(|field| field.prompt.as_str());
+                [question.title.as_str(), question.text.as_str()].into_iter().chain(prompts)
+            }))
+            .collect::<Vec<_>>()
+            .join("\n");
+        let given: Vec<f64> = lab.parameters.iter().filter_map(|one| one.text.parse().ok()).collect();
+        let reference = Reference::numbers(&lab).expect("a reference");
+        let mut numbers = Vec::new();
+        for point in reference.models.iter().flat_map(|model| &model.operating_points) {
+            let main = point.main();
+            let g = main.linearization.transfer_function.monic();
+            numbers.extend(g.num.to_f64().into_iter().chain(g.den.to_f64()));
+            numbers.extend(main.poles.iter().flat_map(|pole| [pole.re, pole.im]));
+        }
+        for number in numbers.into_iter().map(f64::abs) {
+            let typed = polemark::algebra::significant(number, 4);
+            let digits = typed.chars().filter(char::is_ascii_digit).collect::<String>();
+            let plain = digits.trim_matches('0').len() < 4;
+            if plain || asked.contains(&typed) || given.iter().any(|one| (one - number).abs() < 1e-3 * number)
+            {
+                continue;
+            }
+            assert!(!body.contains(&typed), "{name}: {typed} is an answer");
+        }
+        for answer in lab.model_answer.answers.values() {
+            let text = answer.text.trim();
+            if text.chars().count() >= 6 && !asked.contains(text) {
+                assert!(!body.contains(text), "{name}: `{text}` is an answer");
+            }
+        }
+    }
 }

@@ -24,6 +24,7 @@ impl Checker<'_> {
                 return None;
             }
         };
+        self.letters_in_amounts.extend(formula.symbols().into_iter().map(|symbol| symbol.name));
         // Without values of the parameters the lab is wrong in any case.
         let values: &ParameterValues = self.parameter_values.as_ref()?;
         let lookup = |name: &str, primes: u8| values.get(name).filter(|_| primes == 0).cloned();

@@ -62,6 +62,7 @@ fn definition(
         values,
         parameter_names: file.parameters.0.iter().map(|(name, _)| name.value.clone()).collect(),
         parameter_values: None,
+        letters_in_amounts: std::collections::BTreeSet::new(),
         findings: Vec::new(),
     };
     let lab = checker.lab(file, tree);
@@ -85,6 +86,8 @@ struct Checker<'a> {
     parameter_names: Vec<String>,
     /// As soon as they are known.
     parameter_values: Option<crate::model::ParameterValues>,
+    /// Names in the formulas of amounts that were read so far.
+    letters_in_amounts: std::collections::BTreeSet<String>,
     findings: Vec<Finding>,
 }
 

@@ -50,9 +50,11 @@ impl Checker<'_> {
         file: &SimulationFile,
         names: &Names<'_>,
     ) -> Option<SimulationDefinition> {
+        self.letters_in_amounts.clear();
         let source = self.source(&file.source.value);
         let blocks: Vec<_> = file.chain.value.iter().map(|block| self.block(block)).collect();
         let duration_s = self.positive_amount(&file.duration_s, "a duration");
+        let letters = std::mem::take(&mut self.letters_in_amounts);
         self.one_of(&file.shown_in, "question", &names.questions);
         let blocks = blocks.into_iter().collect::<Option<Vec<_>>>()?;
         let nonlinearity = blocks.iter().find_map(|block| match block {
@@ -75,6 +77,7 @@ impl Checker<'_> {
             input_unit: file.input.unit.clone(),
             nonlinearity: nonlinearity?,
             shown_in: file.shown_in.value.clone(),
+            letters,
         })
     }
 
