@@ -40,6 +40,13 @@ pub struct AskedFeature {
     pub other_convention: Rational,
 }
 
+impl AskedFeature {
+    /// How much of the unit asked for is one of the unit it is computed in.
+    pub fn ratio(&self) -> UnitRatio {
+        ratio(self.native.as_ref(), self.unit.as_ref())
+    }
+}
+
 /// A value at rest as a criterion asks for it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AskedRest {
@@ -54,10 +61,12 @@ pub struct AskedRest {
 impl AskedRest {
     /// How much of the unit asked for is one of the unit that the equations have it in.
     pub fn ratio(&self) -> UnitRatio {
-        let ratio =
-            self.native.as_ref().zip(self.unit.as_ref()).and_then(|(native, asked)| native.in_unit(asked));
-        ratio.unwrap_or_else(UnitRatio::one)
+        ratio(self.native.as_ref(), self.unit.as_ref())
     }
+}
+
+fn ratio(native: Option<&Unit>, asked: Option<&Unit>) -> UnitRatio {
+    native.zip(asked).and_then(|(native, asked)| native.in_unit(asked)).unwrap_or_else(UnitRatio::one)
 }
 
 /// Every feature, as the lab file spells it and in words.

@@ -1,5 +1,6 @@
 //! What a lab has not got yet: nothing that fails, but without some of it nothing is proven.
 
+use super::blind_tolerance::blind_tolerances;
 use super::mistakes::undeclared;
 use crate::algebra::{significant, to_f64};
 use crate::lab::{Check, Concept, ExpectedValue, LabDefinition, Question, SystemRef};
@@ -45,6 +46,13 @@ pub fn missing(lab: &LabDefinition, reference: &Reference) -> Vec<Missing> {
             "no answer shows {changes}: is the equation right? Declare what is meant to be so under `mistakes: {{without_effect: […]}}`"
         );
         say("mistakes without effect", found, true);
+    }
+    if let Some(names) = listed(blind_tolerances(lab, reference).into_iter()) {
+        let found = format!(
+            "0 would be right at {names}: give the criterion a `tolerance` of its own, or the lab a smaller `absolute` under \
+             `tolerances: {{values: …}}`"
+        );
+        say("tolerances", found, true);
     }
     let asked: Vec<&str> = lab.sheet.fields.iter().filter_map(|field| field.about.as_deref()).collect();
     let points = lab.models.iter().flat_map(|model| {

@@ -1,6 +1,7 @@
 //! A lab proves itself: its key agrees with stated values and with a second route, its model answer earns everything,
 //! a blank nothing.
 
+mod blind_tolerance;
 mod computed_answer;
 mod missing;
 mod mistakes;

@@ -326,3 +326,24 @@ fn changed(number: &str) -> String {
 fn replaced(text: &str, place: Range<usize>, with: &str) -> String {
     format!("{}{with}{}", &text[..place.start], &text[place.end..])
 }
+
+/// With 0.001 for every value, a settling time of 0.39 ms could be answered by 0.
+#[test]
+fn a_tolerance_that_takes_0_for_the_value_is_something_to_do() {
+    let lab = |tolerance: &str| {
+        let text = format!(
+            "lab: rc\nparameters: {{R: {{value: 1000}}, C: {{value: 1e-7}}}}\nmodels:\n  rc:\n    coordinates: {{v: {{unit: V}}}}\n    \
+             inputs: {{u: {{unit: V}}}}\n    equations: [\"R*C*v' + v = u\"]\n    operating_points: {{rest: {{}}}}\n{tolerance}questions:\n  \
+             step:\n    points: 2\n    response: step\n    fields: {{settling: settling_time_2_percent_s, final: final_value}}\n    model_answer: \
+             {{settling: 0.000391, final: 1}}\n"
+        );
+        let lab = LabDefinition::parse(SourceText::new("lab.yaml", text))
+            .unwrap_or_else(|e| panic!("{}", e.render(false)));
+        let reference = Reference::compute(&lab).expect("the lab has a reference");
+        let all = missing(&lab, &reference);
+        all.into_iter().find(|one| one.what == "tolerances").map(|one| one.found)
+    };
+    let found = lab("").expect("0 is within 0.001 of 0.39 ms");
+    assert!(found.starts_with("0 would be right at `step.settling: 0.000391 ± 0.001`:"), "{found}");
+    assert_eq!(lab("tolerances: {values: {relative: 0.01, absolute: 0.00001}}\n"), None);
+}
