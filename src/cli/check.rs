@@ -1,8 +1,10 @@
 use super::outcome::{Failure, THEIRS, colour_on_stdout, load_lab, write_output};
 use crate::lab::LabDefinition;
 use crate::report::numbers::counted;
-use crate::source::{Finding, Severity, sanitize};
+use crate::source::{Finding, Severity, Value, sanitize};
 use crate::submission::{Folder, Submission, read, self_check};
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -24,9 +26,18 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let mut all_well = true;
+    let mut labs: BTreeMap<Option<String>, LabDefinition> = BTreeMap::new();
     for path in &arguments.files {
-        let named = arguments.lab.clone().or_else(|| named_lab(path));
-        let (text, well) = check_file(&load_lab(named.as_deref())?, path)?;
+        let bytes = crate::class::read_capped(path)
+            .map_err(|error| Failure::Read { path: path.to_path_buf(), error })?;
+        let lab = match labs.entry(arguments.lab.clone().or_else(|| named_lab(&bytes))) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(place) => {
+                let lab = load_lab(place.key().as_deref())?;
+                place.insert(lab)
+            }
+        };
+        let (text, well) = check_file(lab, path, &bytes);
         write_output(None, &text)?;
         all_well &= well;
     }
@@ -34,20 +45,17 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
 }
 
 /// The embedded lab that the file says it answers.
-fn named_lab(path: &Path) -> Option<String> {
-    let text = crate::source::decode(&crate::class::read_capped(path).ok()?).ok()?;
-    let line = text.lines().find_map(|line| line.strip_prefix("lab:"))?;
-    let name = line.split('#').next()?.trim().trim_matches(['"', '\'']);
-    crate::lab::embedded().iter().find(|(id, _)| *id == name).map(|(id, _)| (*id).to_owned())
+fn named_lab(bytes: &[u8]) -> Option<String> {
+    let tree = crate::source::parse(&crate::source::decode(bytes).ok()?).ok()?;
+    let Value::Scalar(name) = &tree.get("lab")?.value else { return None };
+    crate::lab::embedded().iter().find(|(id, _)| id == name).map(|(id, _)| (*id).to_owned())
 }
 
-fn check_file(lab: &LabDefinition, path: &Path) -> Result<(String, bool), Failure> {
-    let bytes =
-        crate::class::read_capped(path).map_err(|error| Failure::Read { path: path.to_path_buf(), error })?;
+fn check_file(lab: &LabDefinition, path: &Path, bytes: &[u8]) -> (String, bool) {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let folder = Folder(path.parent().unwrap_or(Path::new("")).to_path_buf());
     let (submission, values) = crate::class::read_with_own_values(lab, &|sheet| {
-        read(&stem, &path.to_string_lossy(), &bytes, sheet, &folder)
+        read(&stem, &path.to_string_lossy(), bytes, sheet, &folder)
     });
     let mut findings = submission.findings.clone();
     if submission.readable {
@@ -82,7 +90,7 @@ fn check_file(lab: &LabDefinition, path: &Path) -> Result<(String, bool), Failur
         missing.len()
     );
     text.push_str(&format!("{name}: {counts}\n"));
-    Ok((text, wrong == 0 && submission.readable))
+    (text, wrong == 0 && submission.readable)
 }
 
 /// Whose values stand for the letters, so that a mistyped id is noticed.

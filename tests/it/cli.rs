@@ -289,6 +289,23 @@ fn check_finds_contradictions_within_a_file() {
     bench.run(&["check", &file.to_string_lossy()]).ends_with(1);
 }
 
+/// Without `--lab` each file is read as an answer to the lab it names, however that is written.
+#[test]
+fn check_takes_the_embedded_lab_that_a_file_names() {
+    let bench = Bench::new();
+    let files = ["lab: cruise-control", "lab: 'ball-and-beam' # mine", "student: {id: S-2}\nlab: suspension"];
+    let names = ["cruise-control", "ball-and-beam", "suspension"];
+    for (lab, name) in files.into_iter().zip(names) {
+        let student = if lab.starts_with("student") { "" } else { "student: {id: S-1, name: A. Student}\n" };
+        let file = bench.write("answers.yaml", &format!("{lab}\n{student}answers: {{}}\n"));
+        let ran = bench.run(&["check", &file.to_string_lossy()]);
+        assert!(!ran.out.contains("ee361-lab3"), "{name}: {}", ran.out);
+        let named = polemark::lab::load(name).expect("it is on the shelf");
+        let first = &named.sheet.fields.first().expect("something is asked").path;
+        assert!(ran.out.contains(first.as_str()), "{name}, {first}: {}", ran.out);
+    }
+}
+
 /// `check` is built without the reference: another key must not change one byte of what it says.
 #[test]
 fn check_cannot_leak_the_key() {

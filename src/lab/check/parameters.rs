@@ -114,8 +114,6 @@ impl Checker<'_> {
         }
     }
 
-    /// What is accepted, and what is mistaken, besides its `value`.
-    #[allow(clippy::type_complexity)]
     /// Other spellings of parameters, each of which means one of them only.
     pub(super) fn also(&mut self, file: &LabFile) -> BTreeMap<String, String> {
         let mut also = BTreeMap::new();
@@ -135,6 +133,7 @@ impl Checker<'_> {
         also
     }
 
+    /// What is accepted, and what is mistaken, besides its `value`.
     fn other_values(
         &mut self,
         name: &Text,
