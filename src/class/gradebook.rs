@@ -1,5 +1,5 @@
-use super::Marked;
-use crate::lab::LabDefinition;
+use super::Record;
+use crate::lab::{LabDefinition, Points};
 use std::io::Write;
 
 /// `gradebook.csv`: a row a student, group members each their own.
@@ -25,25 +25,25 @@ impl<W: Write> Gradebook<W> {
         Ok(Self { writer })
     }
 
-    pub fn add(&mut self, marked: &Marked) -> Result<(), csv::Error> {
-        let card = &marked.scorecard;
-        let shown = |points: Option<crate::lab::Points>| points.map_or(String::new(), |p| p.to_string());
-        for student in &marked.submission.students {
+    pub fn add(&mut self, record: &Record) -> Result<(), csv::Error> {
+        let shown = |points: Option<Points>| points.map_or(String::new(), |p| p.to_string());
+        let to_review = record.to_review().count().to_string();
+        for student in &record.students {
             let mut row = vec![
                 disarmed(&student.id),
                 disarmed(&student.name),
-                disarmed(&marked.submission.source.name),
-                card.total.earned.to_string(),
-                card.total.possible.to_string(),
-                card.total.provisional.to_string(),
+                disarmed(&record.file),
+                record.total.earned.to_string(),
+                record.total.possible.to_string(),
+                record.total.provisional.to_string(),
             ];
-            row.extend(card.questions.iter().map(|q| q.tally.earned.to_string()));
-            row.extend(card.observed.iter().map(|(_, points)| shown(*points)));
-            row.extend(card.cover.iter().map(|(_, _, points)| shown(*points)));
-            row.push(shown(card.cover_total));
-            row.push(marked.items_to_review().count().to_string());
-            row.push(marked.submission.findings.len().to_string());
-            row.push(disarmed(&marked.report));
+            row.extend(record.questions.iter().map(|q| q.tally.earned.to_string()));
+            row.extend(record.observed.iter().map(|row| shown(row.earned)));
+            row.extend(record.cover.iter().map(|row| shown(row.earned)));
+            row.push(shown(record.cover_total));
+            row.push(to_review.clone());
+            row.push(record.findings.len().to_string());
+            row.push(disarmed(&record.report));
             self.writer.write_record(&row)?;
         }
         Ok(())

@@ -1,5 +1,5 @@
 use super::OtherVariant;
-use crate::grading::{ItemScore, Scorecard, Verdict};
+use crate::grading::Scorecard;
 use crate::lab::Variant;
 use crate::source::{Finding, Severity, SourceText};
 use crate::submission::{Student, Submission};
@@ -21,15 +21,6 @@ pub struct Marked {
     pub other_variants: Vec<OtherVariant>,
     /// polemark itself failed on it.
     pub failed: bool,
-}
-
-impl Marked {
-    /// Criteria that wait for a person: provisional marks, and what polemark could not judge or read.
-    pub fn items_to_review(&self) -> impl Iterator<Item = &ItemScore> {
-        self.scorecard.questions.iter().flat_map(|question| &question.items).filter(|item| {
-            item.provisional || matches!(item.verdict, Verdict::Unmarked | Verdict::Unreadable)
-        })
-    }
 }
 
 /// A submission of which nothing could be read, for the reason `finding` gives.

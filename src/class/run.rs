@@ -5,7 +5,7 @@ use super::marked::{Marked, our_failure, unreadable_submission};
 use super::numbers::{Bench, Benches, Numbers, WithoutNumbers, numbers};
 use super::others::Others;
 use super::outcome::Outcome;
-use super::results::results_line;
+use super::record::Record;
 use super::statistics::Statistics;
 use super::students_seen::StudentsSeen;
 use crate::grading::{
@@ -119,10 +119,11 @@ pub fn grade_class(job: &ClassJob<'_>, progress: &dyn Fn(usize)) -> Result<Outco
         let mut marked = pool.install(|| desk.mark_all(named))?;
         pool.install(|| others.point_out(job, &mut marked));
         for marked in &marked {
-            writeln!(lines, "{}", results_line(marked)?)
+            let record = Record::of(marked, job.lab);
+            writeln!(lines, "{}", record.to_line()?)
                 .map_err(|error| ClassError::Write { path: results.path.clone(), error })?;
-            gradebook.add(marked)?;
-            statistics.add(marked);
+            gradebook.add(&record)?;
+            statistics.add(&record);
         }
         done += group.len();
         progress(done);

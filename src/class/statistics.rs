@@ -1,9 +1,9 @@
-use super::marked::Marked;
 use super::outcome::Outcome;
+use super::record::{ItemRecord, Record};
 use crate::english::listed;
-use crate::grading::{ItemScore, Verdict};
 use crate::lab::{LabDefinition, Points};
 use crate::report::{ClassRow, ClassSummary, QuestionMean, ReviewEntry, item_anchor};
+use crate::submission::Student;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What the class page and the summary need, gathered one submission at a time.
@@ -15,8 +15,8 @@ pub struct Statistics {
     student_ids: BTreeSet<String>,
     /// (criterion, group) of every like answer.
     groups: BTreeSet<(String, String)>,
-    /// The field each criterion judges.
-    fields: BTreeMap<String, String>,
+    /// Of each criterion.
+    titles: BTreeMap<String, String>,
     reports: BTreeSet<String>,
     outcome: Outcome,
     total: Points,
@@ -30,11 +30,11 @@ impl Statistics {
             earned: vec![Points::ZERO; lab.questions.len()],
             student_ids: BTreeSet::new(),
             groups: BTreeSet::new(),
-            fields: lab
+            titles: lab
                 .questions
                 .iter()
                 .flat_map(|question| &question.criteria)
-                .map(|criterion| (criterion.id.clone(), criterion.field.clone()))
+                .map(|criterion| (criterion.id.clone(), criterion.title.clone()))
                 .collect(),
             reports: BTreeSet::new(),
             outcome: Outcome::default(),
@@ -42,36 +42,34 @@ impl Statistics {
         }
     }
 
-    pub fn add(&mut self, marked: &Marked) {
-        let (submission, card) = (&marked.submission, &marked.scorecard);
-        for (sum, question) in self.earned.iter_mut().zip(&card.questions) {
+    pub fn add(&mut self, record: &Record) {
+        for (sum, question) in self.earned.iter_mut().zip(&record.questions) {
             *sum += question.tally.earned;
         }
-        self.total += card.total.earned;
-        self.student_ids.extend(submission.students.iter().map(|s| s.id.clone()));
-        self.reports.insert(marked.report.clone());
+        self.total += record.total.earned;
+        self.student_ids.extend(record.students.iter().map(|s| s.id.clone()));
+        self.reports.insert(record.report.clone());
         self.outcome.submissions += 1;
-        self.outcome.possible = card.total.possible.as_f64();
-        self.outcome.unreadable += usize::from(!submission.readable);
-        self.outcome.failed += usize::from(marked.failed);
+        self.outcome.possible = record.total.possible.as_f64();
+        self.outcome.unreadable += usize::from(!record.readable);
+        self.outcome.failed += usize::from(record.failed);
         let waiting = self.review.len();
-        self.review.extend(review_entries(marked, &self.fields));
-        self.review.extend(other_variant_entries(marked));
-        let items = card.questions.iter().flat_map(|question| &question.items);
-        let groups = items.filter_map(|item| Some((item.id.clone(), item.alike.clone()?)));
+        self.review.extend(review_entries(record, &self.titles));
+        self.review.extend(other_variant_entries(record, &self.titles));
+        let groups = record.items.iter().filter_map(|item| Some((item.id.clone(), item.alike.clone()?)));
         self.groups.extend(groups);
         self.outcome.to_review += usize::from(self.review.len() > waiting);
         self.rows.push(ClassRow {
-            students: submission.students.clone(),
-            file: submission.source.name.clone(),
-            report: marked.report.clone(),
-            numbers: numbers_words(marked),
-            earned: card.total.earned,
-            possible: card.total.possible,
-            provisional: card.total.provisional,
-            findings: submission.findings.len(),
-            cover_total: card.cover_total,
-            readable: submission.readable,
+            students: students(record),
+            file: record.file.clone(),
+            report: record.report.clone(),
+            numbers: numbers_words(record),
+            earned: record.total.earned,
+            possible: record.total.possible,
+            provisional: record.total.provisional,
+            findings: record.findings.len(),
+            cover_total: record.cover_total,
+            readable: record.readable,
         });
     }
 
@@ -115,84 +113,90 @@ impl Statistics {
     }
 }
 
+fn students(record: &Record) -> Vec<Student> {
+    record.students.iter().map(|one| Student { id: one.id.clone(), name: one.name.clone() }).collect()
+}
+
 /// `M = 0.4, b = 0.1`; empty where everyone has the lab's own.
-fn numbers_words(marked: &Marked) -> String {
-    match &marked.parameters {
+fn numbers_words(record: &Record) -> String {
+    match &record.parameters {
         None => String::new(),
         Some(values) if values.is_empty() => "not known".to_owned(),
-        Some(values) => {
-            let each = values.iter().map(|(name, value)| format!("{name} = {value}"));
-            each.collect::<Vec<_>>().join(", ")
-        }
+        Some(values) => equalities(values),
     }
+}
+
+fn equalities(values: &BTreeMap<String, String>) -> String {
+    let each = values.iter().map(|(name, value)| format!("{name} = {value}"));
+    each.collect::<Vec<_>>().join(", ")
 }
 
 /// One entry a criterion that waits for a person.
 fn review_entries<'a>(
-    marked: &'a Marked,
-    fields: &'a BTreeMap<String, String>,
+    record: &'a Record,
+    titles: &'a BTreeMap<String, String>,
 ) -> impl Iterator<Item = ReviewEntry> + 'a {
-    let names: Vec<&str> = marked
-        .submission
-        .students
-        .iter()
-        .map(|s| if s.name.is_empty() { s.id.as_str() } else { s.name.as_str() })
-        .collect();
-    let student = names.join(", ");
-    marked.items_to_review().map(move |item| ReviewEntry {
-        student: student.clone(),
-        item: item.id.clone(),
-        title: item.title.clone(),
-        link: format!("{}#{}", marked.report, item_anchor(&item.id)),
-        why: why(item).to_owned(),
-        earned: item.earned,
-        possible: item.possible,
+    let names =
+        record.students.iter().map(|s| if s.name.is_empty() { s.id.as_str() } else { s.name.as_str() });
+    let student = names.collect::<Vec<_>>().join(", ");
+    record.to_review().map(move |(item, review)| ReviewEntry {
+        why: review.why.clone(),
         alike: item.alike.clone(),
-        found: found(item),
+        found: review.words.clone(),
         conflicts: conflicts(item),
-        example: fields.get(&item.id).map_or_else(String::new, |field| beginning(marked, field)),
+        example: review.answer.clone(),
+        ..entry(record, item, student.clone(), titles)
     })
 }
 
 /// One entry for each variant of other students that wrong answers are right for.
-fn other_variant_entries(marked: &Marked) -> impl Iterator<Item = ReviewEntry> + '_ {
-    marked.other_variants.iter().filter_map(|other| {
-        let items = marked.scorecard.questions.iter().flat_map(|question| &question.items);
+fn other_variant_entries<'a>(
+    record: &'a Record,
+    titles: &'a BTreeMap<String, String>,
+) -> impl Iterator<Item = ReviewEntry> + 'a {
+    record.other_variant.iter().filter_map(move |other| {
         let field = other.fields.first()?;
         let below = format!("{field}.");
-        let item = items.into_iter().find(|item| item.id == *field || item.id.starts_with(&below))?;
-        let students: Vec<&str> = marked.submission.students.iter().map(|student| student.id.as_str()).collect();
-        let values = other.parameters.iter().map(|(name, value)| format!("{name} = {value}"));
+        let item = record.items.iter().find(|item| item.id == *field || item.id.starts_with(&below))?;
+        let students: Vec<&str> = record.students.iter().map(|student| student.id.as_str()).collect();
         Some(ReviewEntry {
-            student: students.join(", "),
-            item: item.id.clone(),
-            title: item.title.clone(),
-            link: format!("{}#{}", marked.report, item_anchor(&item.id)),
             why: format!(
                 "wrong for their own values, but right for those of {} ({}) in {}; by chance at most 1 in {} such answers. No mark rests \
                  on it",
                 listed(&other.students, "and"),
-                values.collect::<Vec<_>>().join(", "),
+                equalities(&other.parameters),
                 listed(&other.fields, "and"),
                 (1.0 / other.chance.max(1e-9)).floor()
             ),
-            earned: item.earned,
-            possible: item.possible,
-            alike: None,
-            found: String::new(),
-            conflicts: Vec::new(),
-            example: String::new(),
+            ..entry(record, item, students.join(", "), titles)
         })
     })
 }
 
-/// The words that were found, when the answer is prose.
-fn found(item: &ItemScore) -> String {
-    if item.evidence.phrases.is_empty() { String::new() } else { item.evidence.found.clone() }
+/// Where the criterion stands and what it earned.
+fn entry(
+    record: &Record,
+    item: &ItemRecord,
+    student: String,
+    titles: &BTreeMap<String, String>,
+) -> ReviewEntry {
+    ReviewEntry {
+        student,
+        item: item.id.clone(),
+        title: titles.get(&item.id).unwrap_or(&item.id).clone(),
+        link: format!("{}#{}", record.report, item_anchor(&item.id)),
+        why: String::new(),
+        earned: item.earned,
+        possible: item.possible,
+        alike: None,
+        found: String::new(),
+        conflicts: Vec::new(),
+        example: String::new(),
+    }
 }
 
 /// What does not go with the numbers, each once: `it is stable: Your pole 2 lies in the right half-plane.`
-fn conflicts(item: &ItemScore) -> Vec<String> {
+fn conflicts(item: &ItemRecord) -> Vec<String> {
     let mut all: Vec<String> = Vec::new();
     for conflict in &item.evidence.conflicts {
         let one = format!("{}: {}", conflict.claim, conflict.against);
@@ -201,32 +205,4 @@ fn conflicts(item: &ItemScore) -> Vec<String> {
         }
     }
     all
-}
-
-/// As much of the answer as tells what it is like.
-fn beginning(marked: &Marked, field: &str) -> String {
-    const LETTERS: usize = 200;
-    let Some(answer) = marked.submission.answers.get(field) else { return String::new() };
-    let text = answer.read_as();
-    let mut words = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    if let Some((end, _)) = words.char_indices().nth(LETTERS) {
-        words.truncate(end);
-        words.push('…');
-    }
-    words
-}
-
-/// Why a person should look, by the kind of answer.
-fn why(item: &ItemScore) -> &'static str {
-    match (item.verdict, item.code.split('.').next()) {
-        (Verdict::Unmarked, _) if item.code == "variant.unknown" => "it is not known whose numbers count",
-        (Verdict::Unmarked, _) if item.code == "variant.member" => {
-            "right by the numbers of another member of the group"
-        }
-        (Verdict::Unmarked, _) => "polemark could not judge it",
-        (Verdict::Unreadable, _) => "something was written that cannot be read",
-        (_, Some("concepts")) => "prose is judged by its words only",
-        (_, Some("plot")) => "a picture cannot be read",
-        _ => "to be confirmed",
-    }
 }
