@@ -1,12 +1,10 @@
 use super::Evidence;
 use super::closeness::magnitude;
 use super::mark::{Mark, share};
-use crate::algebra::{Expression, NodeKind, Rational, significant, to_f64};
+use crate::algebra::{Rational, significant, to_f64};
 use crate::lab::{LineForm, Points, Tolerance};
-use crate::lti::TransferFunction;
 use crate::reference::{LinearReference, OperatingPointReference};
-use crate::submission::TypedFormula;
-use std::collections::BTreeMap;
+use crate::submission::{LinePlace, StatedForm, StatedLine, TypedFormula};
 
 /// What a criterion asks of a tangent.
 pub(super) struct Asked<'a> {
@@ -21,21 +19,6 @@ struct Line {
     x0: Rational,
     y0: Rational,
     slope: Rational,
-}
-
-/// What a student's formula says.
-enum Reading {
-    Line {
-        slope: Rational,
-        offset: Rational,
-    },
-    Deviations {
-        slope: Rational,
-        offset: Rational,
-    },
-    NotLinear,
-    /// A name that nobody knows, or a formula that cannot be worked out.
-    Unknown(String),
 }
 
 pub(super) fn expected(point: &OperatingPointReference, form: LineForm) -> String {
@@ -59,17 +42,19 @@ pub(super) fn judge(
     typed: &TypedFormula,
 ) -> Mark {
     let expected = expected(point, asked.form);
-    let mut first = None;
+    let mut best: Option<Mark> = None;
     for linear in &point.accepted {
         let Some(line) = Line::of(point, linear) else { continue };
-        let reading = read(typed, point, &linear.values);
-        let mark = line.mark(points, point, asked, &reading, expected.clone());
-        if mark.earned == points {
-            return mark;
+        for mark in line.marks(points, point, asked, typed, linear) {
+            if mark.earned == points {
+                return mark;
+            }
+            if best.as_ref().is_none_or(|best| mark.earned > best.earned) {
+                best = Some(mark);
+            }
         }
-        first.get_or_insert(mark);
     }
-    first.unwrap_or_else(|| {
+    best.unwrap_or_else(|| {
         Mark::unmarked(expected, String::new(), "There is no tangent to compare with; a person will mark it.")
     })
 }
@@ -85,205 +70,140 @@ impl Line {
         })
     }
 
+    /// A mark for each line that the formula can mean; at least one.
+    fn marks(
+        &self,
+        points: Points,
+        point: &OperatingPointReference,
+        asked: &Asked<'_>,
+        typed: &TypedFormula,
+        linear: &LinearReference,
+    ) -> Vec<Mark> {
+        let expected = || expected(point, asked.form);
+        let x = &point.input;
+        let place = LinePlace {
+            output: &point.output,
+            input: x,
+            x0: self.x0.clone(),
+            y0: self.y0.clone(),
+            values: &linear.values,
+            at_rest: point.equilibrium.iter().map(|(name, _)| name.as_str()).collect(),
+        };
+        match typed.lines(&place) {
+            Err(why) => {
+                vec![Mark::unmarked(expected(), String::new(), format!("{why}; a person will mark it."))]
+            }
+            Ok(lines) if lines.is_empty() => vec![Mark::wrong(
+                "tangent.not_linear",
+                Evidence {
+                    expected: expected(),
+                    found: format!("a function that is not linear in {x}"),
+                    reason: format!("A tangent is a straight line: a number times {x}, and a number."),
+                    ..Evidence::default()
+                },
+            )],
+            Ok(lines) => lines.iter().map(|line| self.mark(points, point, asked, line)).collect(),
+        }
+    }
+
     fn mark(
         &self,
         points: Points,
         point: &OperatingPointReference,
         asked: &Asked<'_>,
-        reading: &Reading,
-        expected: String,
+        stated: &StatedLine,
     ) -> Mark {
         let (x, y) = (&point.input, &point.output);
         let (x0, y0, k) = (shown(&self.x0), shown(&self.y0), shown(&self.slope));
-        let evidence = |found: String, reason: String| Evidence {
-            expected: expected.clone(),
-            found,
-            reason,
-            ..Evidence::default()
-        };
+        let StatedLine { slope, offset, form, has_point } = stated;
         let near = |value: &Rational, wanted: &Rational, scale: &Rational| {
             let width = (&asked.tolerance.relative * scale).max(asked.tolerance.absolute.clone());
             magnitude(&(value - wanted)) <= width
         };
-        match reading {
-            Reading::Unknown(why) => {
-                Mark::unmarked(expected.clone(), String::new(), format!("{why}; a person will mark it."))
+        let right_slope = near(slope, &self.slope, &magnitude(&self.slope));
+        let scale = magnitude(&self.y0).max(magnitude(&(&self.slope * &self.x0)));
+        let right_point = if *has_point { near(offset, &Rational::ZERO, &scale) } else { offset.is_zero() };
+        let has_form = match form {
+            StatedForm::Line => asked.form == LineForm::Line,
+            StatedForm::Deviations | StatedForm::Slope => asked.form == LineForm::Deviations,
+            StatedForm::Both => true,
+            StatedForm::Number => false,
+        };
+        let through = shown(&(&self.y0 + offset));
+        let found = match form {
+            StatedForm::Line | StatedForm::Both => {
+                format!("a slope of {}, and {y} = {through} at {x} = {x0}", shown(slope))
             }
-            Reading::NotLinear => Mark::wrong(
-                "tangent.not_linear",
+            StatedForm::Deviations => format!("a slope of {}, in deviations", shown(slope)),
+            StatedForm::Slope | StatedForm::Number => format!("a slope of {}", shown(slope)),
+        };
+        let evidence = |reason: String| Evidence {
+            expected: expected(point, asked.form),
+            found,
+            reason,
+            ..Evidence::default()
+        };
+        let is_line = matches!(form, StatedForm::Line | StatedForm::Both);
+        match (right_slope, right_point) {
+            (true, true) if has_form => {
+                Mark::right(points, evidence(format!("Yes: slope {k}, through {x} = {x0}, {y} = {y0}.")))
+            }
+            (true, true) => {
+                let reason = match (form, asked.form) {
+                    (StatedForm::Slope | StatedForm::Number, LineForm::Line) => format!(
+                        "The slope is right. Where the line goes through is not said: asked for is the tangent itself, {y} as a \
+                         function of {x}."
+                    ),
+                    (StatedForm::Number, LineForm::Deviations) => {
+                        format!("The slope is right. Of what to what it is has to be said: δ{y} = {k}·δ{x}.")
+                    }
+                    (_, LineForm::Line) => format!(
+                        "The slope is right. This is the model in deviations from {x} = {x0}, {y} = {y0}; asked for is the \
+                         tangent itself, {y} as a function of {x}."
+                    ),
+                    (_, LineForm::Deviations) => format!(
+                        "The tangent is right. Asked for is the model in deviations, δ{y} = {k}·δ{x}, a line through the \
+                         origin: without the constant that the tangent has."
+                    ),
+                };
+                Mark::partly("tangent.other_form", share(points, asked.other_form), evidence(reason))
+            }
+            (true, false) if !is_line => Mark::wrong(
+                "tangent.point",
                 evidence(
-                    format!("a function that is not linear in {x}"),
-                    format!("A tangent is a straight line: a number times {x}, and a number."),
+                    "The slope is right, but in deviations the line goes through the origin.".to_owned(),
                 ),
             ),
-            Reading::Line { slope, offset } | Reading::Deviations { slope, offset } => {
-                let deviations = matches!(reading, Reading::Deviations { .. });
-                let right_slope = near(slope, &self.slope, &magnitude(&self.slope));
-                let through = if deviations { offset.clone() } else { slope * &self.x0 + offset };
-                let wanted = if deviations { Rational::ZERO } else { self.y0.clone() };
-                let scale = magnitude(&self.y0).max(magnitude(&(&self.slope * &self.x0)));
-                let right_point =
-                    if deviations { through.is_zero() } else { near(&through, &wanted, &scale) };
-                let found = match deviations {
-                    true => format!("a slope of {}, in deviations", shown(slope)),
-                    false => {
-                        format!("a slope of {}, and {y} = {} at {x} = {x0}", shown(slope), shown(&through))
-                    }
-                };
-                match (right_slope, right_point) {
-                    (true, true) if deviations == (asked.form == LineForm::Deviations) => Mark::right(
-                        points,
-                        evidence(found, format!("Yes: slope {k}, through {x} = {x0}, {y} = {y0}.")),
-                    ),
-                    (true, true) => {
-                        let earned = share(points, asked.other_form);
-                        let reason = if deviations {
-                            format!(
-                                "The slope is right. This is the model in deviations from {x} = {x0}, {y} = {y0}; asked for is the \
-                                 tangent itself, {y} as a function of {x}."
-                            )
-                        } else {
-                            format!(
-                                "The tangent is right. Asked for is the model in deviations, δ{y} = {k}·δ{x}, a line through the \
-                                 origin: without the constant that the tangent has."
-                            )
-                        };
-                        Mark::partly("tangent.other_form", earned, evidence(found, reason))
-                    }
-                    (true, false) if deviations => Mark::wrong(
-                        "tangent.point",
-                        evidence(
-                            found,
-                            "The slope is right, but in deviations the line goes through the origin."
-                                .to_owned(),
-                        ),
-                    ),
-                    (true, false) => Mark::wrong(
-                        "tangent.point",
-                        evidence(
-                            found,
-                            format!(
-                                "The slope is right, but the line does not touch the function: at {x} = {x0} it must be {y} = {y0}, \
-                                 not {}.",
-                                shown(&through)
-                            ),
-                        ),
-                    ),
-                    (false, true) if !deviations => Mark::wrong(
-                        "tangent.slope",
-                        evidence(
-                            found,
-                            format!(
-                                "The line goes through the right point, but the derivative there is {k}, not {}.",
-                                shown(slope)
-                            ),
-                        ),
-                    ),
-                    (false, _) if deviations => Mark::wrong(
-                        "tangent.slope",
-                        evidence(
-                            found,
-                            format!("The derivative at {x} = {x0} is {k}, not {}.", shown(slope)),
-                        ),
-                    ),
-                    (false, _) => Mark::wrong(
-                        "tangent.other",
-                        evidence(
-                            found,
-                            format!(
-                                "The derivative at {x} = {x0} is {k}, and the line goes through {y} = {y0} there."
-                            ),
-                        ),
-                    ),
-                }
-            }
+            (true, false) => Mark::wrong(
+                "tangent.point",
+                evidence(format!(
+                    "The slope is right, but the line does not touch the function: at {x} = {x0} it must be {y} = {y0}, not \
+                     {through}."
+                )),
+            ),
+            (false, true) if is_line => Mark::wrong(
+                "tangent.slope",
+                evidence(format!(
+                    "The line goes through the right point, but the derivative there is {k}, not {}.",
+                    shown(slope)
+                )),
+            ),
+            (false, _) if !is_line => Mark::wrong(
+                "tangent.slope",
+                evidence(format!("The derivative at {x} = {x0} is {k}, not {}.", shown(slope))),
+            ),
+            (false, _) => Mark::wrong(
+                "tangent.other",
+                evidence(format!(
+                    "The derivative at {x} = {x0} is {k}, and the line goes through {y} = {y0} there."
+                )),
+            ),
         }
     }
 }
 
 fn shown(value: &Rational) -> String {
     significant(to_f64(value), 6)
-}
-
-/// The line a formula means: `output` solved for, as a function of `input`; all other names at their values.
-fn read(
-    typed: &TypedFormula,
-    point: &OperatingPointReference,
-    known: &BTreeMap<String, Rational>,
-) -> Reading {
-    let (output, input) = (point.output.as_str(), point.input.as_str());
-    let mut values = known.clone();
-    for (name, value) in point.equilibrium.iter().filter_map(|(name, _)| known.get_key_value(name)) {
-        for spelled in [format!("{name}0"), format!("{name}_0"), format!("{name}o"), format!("{name}_e")] {
-            values.entry(spelled).or_insert_with(|| value.clone());
-        }
-    }
-    let used = |name: &str| {
-        let sides = typed.left.iter().chain([&typed.right]);
-        sides.flat_map(Expression::symbols).any(|symbol| symbol.name == name)
-    };
-    let (dy, dx) = (format!("d{output}"), format!("d{input}"));
-    let deviations = [&dy, &dx].into_iter().any(|name| used(name) && !values.contains_key(name));
-    let (y, x) = if deviations { (dy.as_str(), dx.as_str()) } else { (output, input) };
-    values.remove(x);
-    let solved_for = typed.left.as_ref().filter(|left| left.symbols().iter().any(|symbol| symbol.name == y));
-    let result = match solved_for {
-        Some(left) => {
-            let difference = Expression {
-                kind: NodeKind::Subtract(Box::new(left.clone()), Box::new(typed.right.clone())),
-                start: 0,
-                end: 0,
-            };
-            let at = |value: i64| {
-                let mut values = values.clone();
-                values.insert(y.to_owned(), Rational::from(value));
-                straight(&difference, x, &values)
-            };
-            match (at(0), at(1), at(2)) {
-                (Ok(zero), Ok(one), Ok(two)) => solved(zero, one, two),
-                (Err(why), _, _) | (_, Err(why), _) | (_, _, Err(why)) => return Reading::Unknown(why),
-            }
-        }
-        None => {
-            values.remove(y);
-            match straight(&typed.right, x, &values) {
-                Ok(line) => line,
-                Err(why) => return Reading::Unknown(why),
-            }
-        }
-    };
-    match result {
-        None => Reading::NotLinear,
-        Some((slope, offset)) if deviations => Reading::Deviations { slope, offset },
-        Some((slope, offset)) => Reading::Line { slope, offset },
-    }
-}
-
-type Straight = Option<(Rational, Rational)>;
-
-/// Slope and offset of a formula in `x`; none when it is not linear.
-fn straight(formula: &Expression, x: &str, values: &BTreeMap<String, Rational>) -> Result<Straight, String> {
-    let (num, den) = formula
-        .rational_function(x, values)
-        .map_err(|error| format!("This formula cannot be worked out: {}", error.message))?;
-    let g = match TransferFunction::new(num, den) {
-        Some(g) => g.cancelled().0,
-        None => return Ok(None),
-    };
-    if g.den.degree() > 0 || g.num.degree() > 1 {
-        return Ok(None);
-    }
-    let scale = g.den.coefficient(0);
-    Ok(Some((g.num.coefficient(1) / &scale, g.num.coefficient(0) / &scale)))
-}
-
-/// F(y) = a·y + b(x) from F at 0, 1 and 2, solved for y.
-fn solved(zero: Straight, one: Straight, two: Straight) -> Straight {
-    let ((k0, b0), (k1, b1), (k2, b2)) = (zero?, one?, two?);
-    let a = &b1 - &b0;
-    // The factor of y must be a number: the same everywhere.
-    let even = k0 == k1 && k1 == k2 && &b2 - &b1 == a;
-    (even && !a.is_zero()).then(|| (-(k0 / &a), -(b0 / &a)))
 }
 
 #[cfg(test)]
@@ -352,6 +272,17 @@ mod tests {
                 ("y = 2x", 0, "tangent.other"),
                 ("y = x^2", 0, "tangent.not_linear"),
                 ("x*y = 3", 0, "tangent.not_linear"),
+                ("δy = 6 (x - 3)", 50, "tangent.other_form"),
+                ("dy/dx = 6", 50, "tangent.other_form"),
+                ("y' = 6", 50, "tangent.other_form"),
+                ("6", 50, "tangent.other_form"),
+                ("dy/dx = 3", 0, "tangent.slope"),
+                ("3", 0, "tangent.other"),
+                ("y = 9 + 6 δx", 100, "right"),
+                ("9 + 6 Δx", 100, "right"),
+                ("6x - 9 = y", 100, "right"),
+                ("y - y_0 = 6 (x - x_0)", 100, "right"),
+                ("y(t) = 6 x(t) - 9", 100, "right"),
                 // what c is nobody knows
                 ("y = c*x - 9", 0, "unmarked"),
             ],
@@ -361,8 +292,40 @@ mod tests {
             LineForm::Deviations,
             &[
                 ("δy = 6 δx", 100, "right"),
+                ("δy = 6 (x - 3)", 100, "right"),
+                ("6 (x - 3)", 100, "right"),
+                ("δy = 6 (x - x_0)", 100, "right"),
+                ("y - y_0 = 6 (x - x_0)", 100, "right"),
+                ("y - 9 = 6 (x - 3)", 100, "right"),
+                ("2(y - 9) = 12 (x - 3)", 100, "right"),
+                ("δy/δx = 6", 100, "right"),
+                (r"\frac{\delta y}{\delta x} = 6", 100, "right"),
+                (r"\Delta y = 6 \Delta x", 100, "right"),
+                (r"\tilde{y} = 6 \tilde{x}", 100, "right"),
+                ("ỹ = 6 x̃", 100, "right"),
+                ("dy = 6 dx", 100, "right"),
+                ("dy = 6 (x - 3)", 100, "right"),
+                ("y' = 6 x'", 100, "right"),
+                ("y' = 6 (x - 3)", 100, "right"),
+                ("y' = 6", 100, "right"),
+                ("Δy ≈ 6 Δx", 100, "right"),
+                ("δy(t) = 6 δx(t)", 100, "right"),
+                ("δy(t) = 6·δx(t)/1", 100, "right"),
+                ("delta_y = 6 delta_x", 100, "right"),
+                ("δ_y = 6 δ_x", 100, "right"),
+                ("dy = 2 x0 dx", 100, "right"),
+                ("y = 6 dx", 100, "right"),
                 ("y = 6x - 9", 50, "tangent.other_form"),
+                ("y = 9 + 6 (x - 3)", 50, "tangent.other_form"),
+                ("y = 9 + 6 dx", 50, "tangent.other_form"),
+                ("6", 50, "tangent.other_form"),
                 ("dy = 6 dx + 9", 0, "tangent.point"),
+                ("dy = 6 x", 0, "tangent.point"),
+                ("dy = 6 (x - 2)", 0, "tangent.point"),
+                ("y - 9 = 6 x", 0, "tangent.point"),
+                ("dy/dx = 2 x", 0, "tangent.not_linear"),
+                ("dy = 3 (x - 3)", 0, "tangent.slope"),
+                ("dy/dx = 3", 0, "tangent.slope"),
             ],
         );
     }
@@ -374,7 +337,8 @@ mod tests {
             LineForm::Line,
             &[
                 ("y = 1.414 + 1.414(x - 0.785)", 100, "right"),
-                ("y = k*sqrt(2)/2 + k*(x - pi/4)/sqrt(2)", 0, "unmarked"),
+                ("y = k*sqrt(2)/2 + k*(x - pi/4)/sqrt(2)", 100, "right"),
+                ("y = k*sin(x0) + k*cos(x_0)*(x - x_0)", 100, "right"),
                 ("y = 1.41x + 0.31", 100, "right"),
             ],
         );

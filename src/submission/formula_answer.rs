@@ -1,5 +1,6 @@
 use super::problem::Problem;
 use crate::algebra::Expression;
+use unicode_normalization::UnicodeNormalization;
 
 /// A formula as typed: an equation, or what would stand on its right side.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,8 +15,11 @@ const HELP: &str = "Write it as `y = 2x + 1`, or `dy = 2 dx` for deviations.";
 /// More than this is no formula of a student's.
 const MOST_LETTERS: usize = 2_000;
 /// What parts the sides; the deviation signs that are read as `d`.
-const EQUALS: [&str; 6] = ["\\approx", "≈", "≅", "≃", "~=", "="];
-const DEVIATIONS: [&str; 7] = ["\\Delta", "\\delta", "Delta ", "delta ", "Δ", "∆", "δ"];
+const EQUALS: [&str; 9] = ["\\approx", "\\simeq", "\\cong", "≈", "≅", "≃", "≐", "~=", "="];
+const DEVIATIONS: [&str; 9] =
+    ["\\Delta", "\\delta", "\\tilde", "\\widetilde", "Delta ", "delta ", "Δ", "∆", "δ"];
+/// The wave over a letter.
+const TILDE: char = '\u{303}';
 
 impl TypedFormula {
     /// `y = 6x - 9`, `y ≈ 9 + 6(x - 3)`, `6*(x-3)+9`; a deviation `Δx` or `δx` becomes the name `dx`.
@@ -60,14 +64,26 @@ fn without_argument(left: &str) -> &str {
     }
 }
 
-/// `Δx`, `\delta x` and their like as `dx`.
+/// `Δx`, `\delta x`, `\tilde{x}`, `x̃`, `δ_x` and their like as `dx`.
 fn without_signs(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
     let mut rest = text;
     while let Some(c) = rest.chars().next() {
         let sign = DEVIATIONS.iter().find(|sign| rest.starts_with(**sign));
-        let after = sign.map(|sign| rest[sign.len()..].trim_start_matches([' ', '\u{a0}']));
+        let after = sign.map(|sign| rest[sign.len()..].trim_start_matches([' ', '\u{a0}', '_']));
+        let waved: Vec<char> = rest[..c.len_utf8()].nfd().collect();
         match after {
+            _ if waved.ends_with(&[TILDE]) || rest[c.len_utf8()..].starts_with(TILDE) => {
+                plain.push('d');
+                plain.extend(waved.into_iter().filter(|c| *c != TILDE));
+                rest = rest[c.len_utf8()..].trim_start_matches(TILDE);
+            }
+            Some(after) if after.starts_with('{') && after.find('}').is_some() => {
+                let (name, behind) = after[1..].split_once('}').unwrap_or((after, ""));
+                plain.push('d');
+                plain.push_str(name.trim());
+                rest = behind;
+            }
             Some(after) if after.starts_with(char::is_alphabetic) => {
                 plain.push('d');
                 rest = after;
@@ -101,6 +117,9 @@ mod tests {
         check("Δy = 6Δx", "dy", "6*dx");
         check("\\delta y = 6 \\delta x", "dy", "6*dx");
         check("$dy = 6 dx$", "dy", "6*dx");
+        check(r"\tilde{y} = 6 \tilde x", "dy", "6*dx");
+        check("ỹ \\simeq 6 x\u{303}", "dy", "6*dx");
+        check("δ_y = 6 δ_{x}", "dy", "6*dx");
         check("y - 9 = 6(x - 3)", "y - 9", "6*(x - 3)");
         check("y = 9 + 6(x - 3) = 6x - 9", "y", "6*x - 9");
     }

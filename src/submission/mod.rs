@@ -21,12 +21,14 @@ mod read_as;
 mod self_check;
 mod series;
 mod sheet;
+mod stated_line;
 mod unit;
 mod value;
 mod words;
 mod wrapping;
 
 pub use formula_answer::TypedFormula;
+pub use stated_line::{LinePlace, StatedForm, StatedLine};
 
 /// A formula as typed, for tests of what judges it.
 #[cfg(test)]

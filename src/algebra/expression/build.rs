@@ -63,6 +63,25 @@ impl Expression {
         }
     }
 
+    /// The same tree with other nodes where `with` has one; what is below a new node stays as it is.
+    pub fn replaced(&self, with: &dyn Fn(&Self) -> Option<Self>) -> Self {
+        if let Some(new) = with(self) {
+            return new;
+        }
+        let of = |a: &Self| Box::new(a.replaced(with));
+        let kind = match &self.kind {
+            NodeKind::Number(_) | NodeKind::Pi | NodeKind::Symbol { .. } => self.kind.clone(),
+            NodeKind::Negate(a) => NodeKind::Negate(of(a)),
+            NodeKind::Add(a, b) => NodeKind::Add(of(a), of(b)),
+            NodeKind::Subtract(a, b) => NodeKind::Subtract(of(a), of(b)),
+            NodeKind::Multiply(a, b) => NodeKind::Multiply(of(a), of(b)),
+            NodeKind::Divide(a, b) => NodeKind::Divide(of(a), of(b)),
+            NodeKind::Power(a, b) => NodeKind::Power(of(a), of(b)),
+            NodeKind::Call(function, a) => NodeKind::Call(*function, of(a)),
+        };
+        Self::new(kind, self.start, self.end)
+    }
+
     /// Nodes from here to the deepest leaf: 1 for a leaf.
     pub fn height(&self) -> usize {
         1 + self.children().map(Self::height).max().unwrap_or(0)
