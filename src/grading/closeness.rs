@@ -18,40 +18,32 @@ impl Closeness {
     }
 }
 
-/// Decided in exact rationals; `error_bound` is what the expected number may itself be off by, and is given to the student.
-pub(super) fn closeness(
-    expected: f64,
-    error_bound: f64,
-    typed: &Decimal,
-    tolerance: &Tolerance,
-) -> Closeness {
-    Expected::computed(expected, error_bound)
-        .map_or(Closeness::Off, |expected| expected.closeness(typed, tolerance))
-}
-
-/// Lowest and highest number within max(absolute, relative · |expected|) and the error bound; `None` for what is not finite.
+/// A number that is expected, what it may itself be off by, and what it is large or small beside.
 ///
-/// Numbers outside may still be right, when they are the expected one correctly rounded.
-pub(super) fn accepted_interval(
-    expected: f64,
-    error_bound: f64,
-    tolerance: &Tolerance,
-) -> Option<(Rational, Rational)> {
-    Some(Expected::computed(expected, error_bound)?.interval(tolerance))
-}
-
-/// A number that is expected, and what it may itself be off by.
+/// Decided in exact rationals; the error bound is given to the student.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Expected {
     pub value: Rational,
     /// Not negative.
     pub error_bound: Rational,
+    /// The size of what it belongs to: of the pole it is a part of, of the largest value of its response. 0 when there is
+    /// nothing beside it.
+    pub scale: Rational,
 }
 
 impl Expected {
     /// `None` for what is not finite.
     pub fn computed(value: f64, error_bound: f64) -> Option<Self> {
-        Some(Self { value: from_f64(value)?, error_bound: magnitude(&from_f64(error_bound)?) })
+        Self::beside(value, error_bound, 0.0)
+    }
+
+    /// As [`Expected::computed`], of something as large as `scale`.
+    pub fn beside(value: f64, error_bound: f64, scale: f64) -> Option<Self> {
+        Some(Self {
+            value: from_f64(value)?,
+            error_bound: magnitude(&from_f64(error_bound)?),
+            scale: magnitude(&from_f64(scale).unwrap_or(Rational::ZERO)),
+        })
     }
 
     /// The same number in another unit, of which one of its own is `ratio`.
@@ -59,7 +51,8 @@ impl Expected {
         let (factor, bound) = ratio.value();
         let error_bound =
             &self.error_bound * magnitude(&factor) + magnitude(&self.value) * bound * Rational::from(2);
-        Self { value: &self.value * factor, error_bound }
+        let scale = &self.scale * magnitude(&factor);
+        Self { value: &self.value * factor, error_bound, scale }
     }
 
     pub fn closeness(&self, typed: &Decimal, tolerance: &Tolerance) -> Closeness {
@@ -73,7 +66,9 @@ impl Expected {
         }
     }
 
-    /// See [`accepted_interval`].
+    /// Lowest and highest number within max(absolute, relative · |expected|) and the error bound.
+    ///
+    /// Numbers outside may still be right, when they are the expected one correctly rounded.
     pub fn interval(&self, tolerance: &Tolerance) -> (Rational, Rational) {
         let reach = self.width(tolerance) + &self.error_bound;
         (&self.value - &reach, &self.value + reach)
@@ -81,7 +76,21 @@ impl Expected {
 
     /// max(absolute, relative · |expected|).
     fn width(&self, tolerance: &Tolerance) -> Rational {
-        self.relative_width(tolerance).max(tolerance.absolute.clone())
+        self.relative_width(tolerance).max(self.absolute(tolerance))
+    }
+
+    /// The absolute tolerance as it counts here: all of what the lab states, see [`Tolerance::of_scale`].
+    pub fn absolute(&self, tolerance: &Tolerance) -> Rational {
+        let Some(part) = &tolerance.of_scale else { return tolerance.absolute.clone() };
+        let size = magnitude(&self.value);
+        let is_zero = size <= self.error_bound;
+        let of_scale = match self.scale.is_zero() {
+            true if is_zero => tolerance.absolute.clone(),
+            true => part * &size,
+            false => part * &self.scale,
+        };
+        let widest = tolerance.absolute.clone().min(of_scale);
+        if is_zero { widest } else { widest.min(size / Rational::from(10)) }
     }
 
     fn relative_width(&self, tolerance: &Tolerance) -> Rational {
@@ -96,7 +105,7 @@ impl Expected {
         let range = match interval {
             Some(interval) => format!("accepted {interval}"),
             None if self.width(tolerance).is_zero() => "exactly".to_owned(),
-            None => return in_words(tolerance),
+            None => return in_words(&self.stated(tolerance)),
         };
         match tolerance.figures.filter(|figures| self.rounding_reaches_farther(*figures, tolerance)) {
             Some(figures) => {
@@ -106,18 +115,33 @@ impl Expected {
         }
     }
 
+    /// The tolerance as if the lab stated what holds here.
+    pub fn stated(&self, tolerance: &Tolerance) -> Tolerance {
+        Tolerance { absolute: self.absolute(tolerance), of_scale: None, ..tolerance.clone() }
+    }
+
+    /// To five figures, and `0` when it is nothing but rounding beside the tolerance.
+    pub fn shown(&self, tolerance: &Tolerance) -> String {
+        if magnitude(&self.value) * Rational::from(1000) <= self.absolute(tolerance) {
+            "0".to_owned()
+        } else {
+            significant(to_f64(&self.value), 5)
+        }
+    }
+
     /// `from -0.8023 to -0.7865 (1 %)`; `None` when the interval is too narrow to be written with few digits.
     fn interval_in_words(&self, tolerance: &Tolerance, unit: &str) -> Option<String> {
         let width = self.width(tolerance);
         let (low, high) = self.interval(tolerance);
         let (low, high) = inward(&low, &high, &width)?;
         let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-        let how = if self.relative_width(tolerance) > tolerance.absolute {
+        let absolute = self.absolute(tolerance);
+        let how = if self.relative_width(tolerance) > absolute {
             format!(" ({})", percent(&tolerance.relative))
-        } else if magnitude(&self.value) * Rational::from(1000) <= tolerance.absolute {
+        } else if magnitude(&self.value) * Rational::from(1000) <= absolute {
             String::new()
         } else {
-            format!(" (±{})", significant(to_f64(&tolerance.absolute), 3))
+            format!(" (±{})", significant(to_f64(&absolute), 3))
         };
         Some(format!("from {low} to {high}{unit}{how}"))
     }
@@ -216,15 +240,6 @@ pub(super) fn percent(part: &Rational) -> String {
     format!("{} %", significant(to_f64(part) * 100.0, 3))
 }
 
-/// An expected number as shown: to five figures, and `0` when it is nothing but rounding beside the tolerance.
-pub(super) fn shown(expected: f64, tolerance: &Tolerance) -> String {
-    if expected.abs() * 1e3 <= to_f64(&tolerance.absolute) {
-        "0".to_owned()
-    } else {
-        significant(expected, 5)
-    }
-}
-
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
@@ -239,7 +254,45 @@ pub(super) mod tests {
 
     pub fn tolerance(absolute: &str, relative: &str, figures: Option<u32>) -> Tolerance {
         let number = |text| parse_decimal(text).unwrap();
-        Tolerance { absolute: number(absolute), relative: number(relative), figures }
+        Tolerance { absolute: number(absolute), of_scale: None, relative: number(relative), figures }
+    }
+
+    fn closeness(expected: f64, error_bound: f64, typed: &Decimal, tolerance: &Tolerance) -> Closeness {
+        Expected::computed(expected, error_bound)
+            .map_or(Closeness::Off, |expected| expected.closeness(typed, tolerance))
+    }
+
+    /// What the lab leaves to polemark: 0.001, and no more than a thousandth of the scale.
+    pub fn usual() -> Tolerance {
+        let stated = tolerance("0.001", "0.01", Some(2));
+        Tolerance { of_scale: Some(stated.absolute.clone()), ..stated }
+    }
+
+    /// (expected, scale, a number that is accepted and the next that is not).
+    #[test]
+    fn the_usual_width_is_that_of_the_scale() {
+        for (expected, scale, within, beyond) in [
+            // zeros
+            (0.0, 0.0, "0.001", "0.0011"),
+            (0.0, 5.0, "-0.001", "-0.0011"),
+            (0.0, 0.02, "0.00002", "0.000021"),
+            (0.0, 4e-7, "4e-10", "4.1e-10"),
+            // a real part beside an imaginary part, a final value beside a peak: on its own side of zero
+            (-0.0195, 5.6, "-0.0205", "-0.0206"),
+            (-0.0004, 5.6, "-0.00044", "-0.000441"),
+            (-0.0004, 5.6, "-0.00036", "0.0004"),
+            (-0.0004, 0.02, "-0.00042", "-0.000421"),
+            // nothing beside it: 1 %
+            (0.0004, 0.0, "0.000404", "0.000405"),
+            (1e-4, 1e-4, "0.000101", "-0.0001"),
+            (128.0, 128.0, "129.28", "129.29"),
+        ] {
+            let known = Expected::beside(expected, 1e-14 * scale, scale).unwrap();
+            let strict = Tolerance { figures: None, ..usual() };
+            let got = |text: &str| known.closeness(&Decimal::parse(text).unwrap(), &strict);
+            assert_eq!(got(within), Closeness::Within, "{within} for {expected} beside {scale}");
+            assert_eq!(got(beyond), Closeness::Off, "{beyond} for {expected} beside {scale}");
+        }
     }
 
     #[track_caller]
@@ -368,7 +421,7 @@ pub(super) mod tests {
             in_interval(2.0, 0.0, &tolerance("0", "0.01", None), "rad/s"),
             "accepted from 1.98 to 2.02 rad/s (1 %)"
         );
-        assert_eq!(accepted_interval(f64::INFINITY, 0.0, &near), None);
+        assert_eq!(Expected::computed(f64::INFINITY, 0.0), None);
     }
 
     fn in_interval(expected: f64, bound: f64, tolerance: &Tolerance, unit: &str) -> String {

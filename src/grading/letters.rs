@@ -164,7 +164,8 @@ fn variable(formula: &Expression) -> &'static str {
 }
 
 fn without_tolerance(criterion: &Criterion) -> Criterion {
-    let none = Tolerance { absolute: Rational::ZERO, relative: Rational::ZERO, figures: None };
+    let none =
+        Tolerance { absolute: Rational::ZERO, of_scale: None, relative: Rational::ZERO, figures: None };
     let mut exact = criterion.clone();
     if let Check::Numerator { tolerance, .. } | Check::Denominator { tolerance, .. } = &mut exact.check {
         *tolerance = none;

@@ -225,6 +225,7 @@ mod tests {
         let point = &reference.models[model].operating_points[0];
         let tolerance = Tolerance {
             absolute: Rational::ZERO,
+            of_scale: None,
             relative: Rational::from_parts(1.into(), 200u8.into()),
             figures: None,
         };

@@ -469,8 +469,12 @@ mod tests {
 
     fn criteria() -> Vec<Criterion> {
         let of = SystemRef { model: "cart".into(), operating_point: "hanging".into() };
-        let tolerance =
-            Tolerance { absolute: Rational::ZERO, relative: parse_decimal("0.005").unwrap(), figures: None };
+        let tolerance = Tolerance {
+            absolute: Rational::ZERO,
+            of_scale: None,
+            relative: parse_decimal("0.005").unwrap(),
+            figures: None,
+        };
         let check = |points, check| Criterion {
             id: String::new(),
             title: String::new(),

@@ -1,6 +1,6 @@
 use super::Evidence;
 use super::accepted::{Accepted, also};
-use super::closeness::{Closeness, Expected, percent, shown};
+use super::closeness::{Closeness, Expected, percent};
 use super::mark::{Mark, share};
 use crate::algebra::{Rational, from_f64, significant, to_f64};
 use crate::lab::{AskedFeature, AskedRest, FeatureKind, Points, Tolerance};
@@ -27,25 +27,34 @@ enum Truth {
 /// In the unit the feature is computed in.
 fn truth(features: &Features, kind: FeatureKind) -> Truth {
     let finite = |size: f64| if size.is_finite() { size.abs() } else { 0.0 };
-    let extrema = features.extrema.iter().map(|extremum| finite(extremum.value));
+    let mut known: Vec<f64> = features.extrema.iter().map(|extremum| extremum.value).collect();
+    known.extend(features.peak.map(|peak| peak.value));
+    known.push(features.initial_value);
+    let swings = known.iter().copied().map(finite).fold(0.0, f64::max);
     // A response that grows has no largest value: what is left of its zeros is that of numbers about 1.
-    let peak = features.peak.map_or(1.0, |peak| finite(peak.value));
-    let largest = extrema.fold(finite(features.initial_value).max(peak), f64::max);
-    let slowest = features.slowest_time_constant_s.map_or(0.0, finite);
-    let number = |value: f64, scale: f64| {
-        let bound = COMPUTED_TO * value.abs() + RESIDUE * scale;
-        Expected::computed(value, bound).map_or(Truth::None, Truth::Number)
+    let residue = if features.peak.is_some() { swings } else { swings.max(1.0) };
+    let largest = match features.final_value {
+        Limit::Value(value) => swings.max(finite(value)),
+        _ => swings,
     };
-    let optional = |value: Option<f64>, scale: f64| value.map_or(Truth::None, |value| number(value, scale));
+    let slowest = features.slowest_time_constant_s.map_or(0.0, finite);
+    // What is left of a zero, and what the value is large or small beside.
+    let beside = |value: f64, residue: f64, scale: f64| {
+        let bound = COMPUTED_TO * value.abs() + RESIDUE * residue;
+        Expected::beside(value, bound, scale).map_or(Truth::None, Truth::Number)
+    };
+    let number = |value: f64| beside(value, residue, largest);
+    let optional =
+        |value: Option<f64>, scale: f64| value.map_or(Truth::None, |value| beside(value, scale, scale));
     match kind {
-        FeatureKind::InitialValue => number(features.initial_value, largest),
+        FeatureKind::InitialValue => number(features.initial_value),
         FeatureKind::FinalValue => match features.final_value {
-            Limit::Value(value) => number(value, largest),
+            Limit::Value(value) => number(value),
             Limit::PlusInfinity => Truth::PlusInfinity,
             Limit::MinusInfinity => Truth::MinusInfinity,
             Limit::Oscillates | Limit::OscillatesUnbounded => Truth::NoLimit,
         },
-        FeatureKind::Peak => optional(features.peak.map(|peak| peak.value), largest),
+        FeatureKind::Peak => features.peak.map_or(Truth::None, |peak| number(peak.value)),
         FeatureKind::PeakTimeS => optional(features.peak.map(|peak| peak.time_s), slowest),
         FeatureKind::PeriodS => optional(features.period_s, slowest),
         FeatureKind::DampingRatio => optional(features.damping_ratio, 1.0),
@@ -149,7 +158,7 @@ impl Wanted {
         let size = if *value < Rational::ZERO { -value.clone() } else { value.clone() };
         let error_bound = from_f64(COMPUTED_TO).unwrap_or(Rational::ZERO) * size;
         Self {
-            truth: Truth::Number(Expected { value: value.clone(), error_bound }),
+            truth: Truth::Number(Expected { value: value.clone(), error_bound, scale: Rational::ZERO }),
             others: Vec::new(),
             as_well: (Vec::new(), ""),
             hardly_any: false,
@@ -214,15 +223,16 @@ impl<'a> Question<'a> {
     }
 
     fn shown(&self, expected: &Expected) -> String {
-        with_unit(&shown(to_f64(&expected.value), self.tolerance), self.unit())
+        with_unit(&expected.shown(self.tolerance), self.unit())
     }
 
     /// How near a number is that was typed in a unit of which one is `ratio` of the unit asked for.
     fn closeness(&self, expected: &Expected, typed: &Decimal, ratio: &UnitRatio) -> Closeness {
         let back = ratio.inverse();
         let (factor, bound) = back.value();
-        let absolute = &self.tolerance.absolute * (factor + bound);
-        expected.in_unit(&back).closeness(typed, &Tolerance { absolute, ..self.tolerance.clone() })
+        let here = expected.stated(self.tolerance);
+        let absolute = &here.absolute * (factor + bound);
+        expected.in_unit(&back).closeness(typed, &Tolerance { absolute, ..here })
     }
 }
 
@@ -484,8 +494,8 @@ impl Question<'_> {
         if let Some(outcome) = self.at_the_line(one, have, unit) {
             return outcome;
         }
-        let is_nothing = shown(to_f64(&want.value), self.tolerance) == "0";
-        let negative = Expected { value: -want.value.clone(), error_bound: want.error_bound.clone() };
+        let is_nothing = want.shown(self.tolerance) == "0";
+        let negative = Expected { value: -want.value.clone(), ..want.clone() };
         for ratio in &ratios {
             if !is_nothing && self.closeness(&negative, have, ratio).accepted() {
                 let reason = format!("The size is right, the sign is not: {expected} was expected.");
@@ -586,7 +596,7 @@ fn without_article(quantity: &str) -> &str {
 
 #[cfg(test)]
 mod tests {
-    use super::super::closeness::tests::{tolerance, typed};
+    use super::super::closeness::tests::{tolerance, typed, usual};
     use super::*;
     use crate::algebra::{Polynomial, parse_decimal};
     use crate::grading::Verdict;
@@ -645,6 +655,39 @@ mod tests {
             let mark =
                 judge(Points(50), &accepted, &asked(kind), &tolerance("0.001", "0.01", Some(2)), &answer);
             assert_eq!(mark.code, *code, "{den}: {kind:?} {text:?}: {:?}", mark.evidence);
+        }
+    }
+
+    /// A thousandth of a second or of a unit is nothing to go by where everything is small or fast.
+    #[test]
+    fn the_usual_tolerance_of_small_values() {
+        use FeatureKind::*;
+        for (num, den, kind, right, wrong) in [
+            // 1/(1e-4 s + 1)
+            ("1", "0.0001 1", SettlingTime2PercentS, "0.000391", &["0", "0.001", "-0.0004", "0.00043"][..]),
+            ("1", "0.0001 1", RiseTime1090S, "0.00022", &["0", "0.0005"]),
+            ("0.0001", "1 1", DcGain, "0.0001", &["0", "-0.0001", "0.0002", "0.001"]),
+            ("0.0001", "1 1", FinalValue, "0.0001", &["0", "-0.0001", "0.00011"]),
+            // zeros: beside a largest value of 0.0001, and of 1
+            ("0.0001", "1 1", InitialValue, "0.0000001", &["0.000001", "0.0001"]),
+            ("1", "1 1", InitialValue, "0.001", &["0.0011"]),
+        ] {
+            let polynomial =
+                |text: &str| Polynomial::new(text.split(' ').map(|c| parse_decimal(c).unwrap()).collect());
+            let g = TransferFunction::new(polynomial(num), polynomial(den)).unwrap();
+            let known = Features::of(&Response::new(&g, InputKind::Step).unwrap());
+            let features = Features { dc_gain: Some(1e-4), ..known };
+            let accepted = [Accepted { differs: &[], what: &features }];
+            for text in wrong.iter().chain([&right]) {
+                let answer = super::FinalValue::Number(typed(text), None);
+                let mark = judge(Points(50), &accepted, &asked(kind), &usual(), &answer);
+                assert_eq!(
+                    mark.code == "right",
+                    *text == right,
+                    "{den}: {kind:?} {text}: {:?}",
+                    mark.evidence
+                );
+            }
         }
     }
 

@@ -316,6 +316,9 @@ pub enum Curve {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tolerance {
     pub absolute: Rational,
+    /// When the lab leaves `absolute` to polemark: it is no wider than this part of the scale that the expected number
+    /// belongs to, and beside a number that is not zero no wider than a tenth of it. `None`: as stated, whatever the scale.
+    pub of_scale: Option<Rational>,
     pub relative: Rational,
     pub figures: Option<u32>,
 }

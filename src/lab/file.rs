@@ -434,7 +434,8 @@ pub(super) struct MistakesFile {
 pub(super) struct TolerancesFile {
     /// Of transfer function coefficients. Default: relative 0.005.
     pub coefficients: Option<Spanned<ToleranceFile>>,
-    /// Of poles and of values read off a response. Default: relative 0.01, absolute 0.001, figures 2.
+    /// Of poles and of values read off a response. Default: relative 0.01, figures 2, and an absolute of 0.001 but no more than a
+    /// thousandth of the scale.
     pub values: Option<Spanned<ToleranceFile>>,
     /// Of data against a curve, of its largest |y|. Default: relative 0.02.
     pub plots: Option<Spanned<ToleranceFile>>,

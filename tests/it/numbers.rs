@@ -52,13 +52,12 @@ fn both_sides_of_each_end() {
         ("motion.frequency", "0.64299 Hz", 0, "value.differs", ""),
         ("motion.frequency", "3.96", 100, "right", ""),
         ("motion.frequency", "3.9599999", 0, "value.differs", ""),
-        // 0 ± 0.001 m
-        ("motion.limit", "0.001", 100, "right", ""),
-        ("motion.limit", "-0.001", 100, "right", ""),
-        ("motion.limit", "0.0011", 0, "value.differs", ""),
-        ("motion.limit", "1 mm", 100, "right", "1 mm is 0.001 m"),
-        ("motion.limit", "1.01 mm", 0, "value.differs", ""),
-        // 2 cm ± 1 %: the absolute 0.001 is of a centimetre, as asked
+        // 0, to a thousandth of the largest displacement, 0.0499 m
+        ("motion.limit", "0.0000498", 100, "right", ""),
+        ("motion.limit", "-0.0000498", 100, "right", ""),
+        ("motion.limit", "0.00005", 0, "value.differs", ""),
+        ("motion.limit", "0.0498 mm", 100, "right", "0.0498 mm is 4.98e-5 m"),
+        ("motion.limit", "0.05 mm", 0, "value.differs", ""),
         ("step.final_value", "1.98", 100, "right", ""),
         ("step.final_value", "1.979", 0, "value.differs", ""),
         ("step.final_value", "0.0202 m", 100, "right", ""),

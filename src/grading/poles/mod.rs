@@ -10,7 +10,7 @@ mod words;
 use super::Evidence;
 use super::accepted::{Accepted, accepted};
 use super::mark::{Mark, half, share};
-use crate::algebra::{Polynomial, Rational};
+use crate::algebra::{Polynomial, Rational, from_f64};
 use crate::lab::{Points, SystemRef, Tolerance};
 use crate::lti::Pole;
 use crate::reference::Reference;
@@ -39,6 +39,22 @@ pub(super) struct Nearness<'a> {
     pub coefficients: &'a Rational,
 }
 
+impl Nearness<'_> {
+    /// The tolerance of parts among these poles: beside the largest of them what is left open is no wider than beside itself.
+    ///
+    /// A pole at the origin has no size of its own.
+    fn among(&self, poles: &[Pole]) -> Tolerance {
+        let mut parts = self.parts.clone();
+        let largest = poles.iter().map(|pole| pole.re.hypot(pole.im)).fold(0.0, f64::max);
+        if let (Some(part), Some(largest)) = (&parts.of_scale, from_f64(largest))
+            && !largest.is_zero()
+        {
+            parts.absolute = parts.absolute.min(part * largest);
+        }
+        parts
+    }
+}
+
 /// The poles of every accepted set of parameter values, the lab's own first; none when the reference does not know `of`.
 pub(super) fn accepted_poles<'a>(reference: &'a Reference, of: &SystemRef) -> Vec<ExpectedPoles<'a>> {
     accepted(reference, of, |one| one)
@@ -52,7 +68,8 @@ pub(super) fn accepted_poles<'a>(reference: &'a Reference, of: &SystemRef) -> Ve
 
 /// What is expected of a set of poles, in words.
 pub(super) fn expected(accepted: &[ExpectedPoles<'_>], nearness: &Nearness<'_>) -> String {
-    words::expected(accepted, nearness)
+    let among = accepted.first().map(|one| nearness.among(one.poles.what));
+    words::expected(accepted, &Nearness { parts: among.as_ref().unwrap_or(nearness.parts), ..*nearness })
 }
 
 /// The typed set against each accepted set, the best of them.
@@ -74,7 +91,8 @@ pub(super) fn judge(
     }
     let mut best: Option<Outcome> = None;
     for one in accepted {
-        let outcome = compare(one, cancelled, nearness, typed);
+        let among = nearness.among(one.poles.what);
+        let outcome = compare(one, cancelled, &Nearness { parts: &among, ..*nearness }, typed);
         if best.as_ref().is_none_or(|known| outcome.rank() > known.rank()) {
             best = Some(outcome);
         }

@@ -2,7 +2,7 @@ use super::typed_pole::Side;
 use super::*;
 use crate::algebra::{parse_decimal, polynomial_text};
 use crate::grading::Verdict;
-use crate::grading::closeness::tests::{tolerance, typed};
+use crate::grading::closeness::tests::{tolerance, typed, usual};
 use crate::lti::roots;
 use crate::source::Span;
 use crate::submission::Decimal;
@@ -521,5 +521,29 @@ proptest! {
         other.rotate_left(turn % typed.len());
         let (mark, turned) = (judged(&denominator, &typed), judged(&denominator, &other));
         prop_assert_eq!((mark.code, mark.earned), (turned.code, turned.earned));
+    }
+}
+
+/// What the lab does not state is no wider than a thousandth of the pole.
+#[test]
+fn the_usual_tolerance_of_slow_poles() {
+    let slow = [pole(-0.0003, 0.0, 1), pole(0.0, 0.0, 1)];
+    let lightly_damped = pair(-0.0195, 5.586);
+    let undamped = pair(0.0, 0.002);
+    for (want, text, code) in [
+        (&slow[..], "-0.0003,0 0,0", "right"),
+        (&slow, "-0.0003,0 0.0000001,0", "right"),
+        (&slow, "0.0003,0 0,0", "poles.mirrored"),
+        (&slow, "-0.0004,0 0,0", "poles.value"),
+        (&slow, "-0.0003,0 -0.0009,0", "poles.value"),
+        (&lightly_damped, "-0.0204,5.59 -0.0204,-5.59", "right"),
+        (&lightly_damped, "-0.0217,5.59 -0.0217,-5.59", "poles.value"),
+        (&undamped, "0,0.002 0,-0.002", "right"),
+        (&undamped, "-0.000002,0.002 -0.000002,-0.002", "right"),
+        (&undamped, "-0.0005,0.002 -0.0005,-0.002", "poles.value"),
+        (&undamped, "0,0.0026 0,-0.0026", "poles.value"),
+    ] {
+        let mark = marked(want, &[], &usual(), &answer(text));
+        assert_eq!(mark.code, code, "{text}: {:?}", mark.evidence);
     }
 }

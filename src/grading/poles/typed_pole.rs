@@ -1,4 +1,4 @@
-use super::super::closeness::{self, closeness};
+use super::super::closeness::{self, Expected};
 use crate::algebra::{Rational, to_f64};
 use crate::lab::Tolerance;
 use crate::lti::Pole;
@@ -44,15 +44,22 @@ impl TypedPole {
             Side::None => true,
             side => self.side() == side,
         };
-        same_side
-            && closeness(pole.re, pole.error_bound, &self.re, tolerance).accepted()
-            && closeness(pole.im, pole.error_bound, &self.im, tolerance).accepted()
+        let near = |part: f64, typed: &Decimal| {
+            expected_part(part, pole).is_some_and(|expected| expected.closeness(typed, tolerance).accepted())
+        };
+        same_side && near(pole.re, &self.re) && near(pole.im, &self.im)
     }
 
     /// For distances: infinite beyond the range of an `f64`.
     pub fn to_complex(&self) -> Complex64 {
         Complex64::new(to_f64(&self.re.value), to_f64(&self.im.value))
     }
+}
+
+/// The real or the imaginary part of a pole, beside the size of the pole; `None` for what is not finite.
+pub(super) fn expected_part(part: f64, pole: &Pole) -> Option<Expected> {
+    let size = pole.re.hypot(pole.im);
+    Expected::beside(part, pole.error_bound, if size > pole.error_bound { size } else { 0.0 })
 }
 
 /// Which side of the imaginary axis a pole is on.

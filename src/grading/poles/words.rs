@@ -1,8 +1,8 @@
 use super::super::accepted::also;
-use super::super::closeness::{accepted_interval, in_words, inward, percent};
+use super::super::closeness::{in_words, inward, percent};
 use super::assignment::Assignment;
 use super::set::Right;
-use super::typed_pole::{Side, TypedPole};
+use super::typed_pole::{Side, TypedPole, expected_part};
 use super::{ExpectedPoles, MOST, Nearness};
 use crate::algebra::{Rational, significant};
 use crate::lab::Tolerance;
@@ -68,12 +68,15 @@ fn with_intervals(pole: &Pole, tolerance: &Tolerance) -> String {
                     format!("real part {re}, imaginary part from ±{low} to ±{high}")
                 }
                 _ if complex => {
-                    format!("real part {re}, imaginary part {}", in_words(&without_figures(tolerance)))
+                    format!(
+                        "real part {re}, imaginary part {}",
+                        in_words(&without_figures(pole.im, pole, tolerance))
+                    )
                 }
                 _ => re,
             }
         }
-        (None, _) => format!("each part {}", in_words(&without_figures(tolerance))),
+        (None, _) => format!("each part {}", in_words(&without_figures(pole.re, pole, tolerance))),
     };
     format!("{text} ({times}{intervals})")
 }
@@ -82,12 +85,14 @@ fn is_negative(number: &str) -> bool {
     number.starts_with('-')
 }
 
-fn without_figures(tolerance: &Tolerance) -> Tolerance {
-    Tolerance { figures: None, ..tolerance.clone() }
+/// What holds for a part of a pole, but for rounding.
+fn without_figures(part: f64, pole: &Pole, tolerance: &Tolerance) -> Tolerance {
+    let here = expected_part(part, pole).map_or_else(|| tolerance.clone(), |part| part.stated(tolerance));
+    Tolerance { figures: None, ..here }
 }
 
 fn interval(part: f64, pole: &Pole, tolerance: &Tolerance) -> Option<(String, String)> {
-    let (low, high) = accepted_interval(part, pole.error_bound, tolerance)?;
+    let (low, high) = expected_part(part, pole)?.interval(tolerance);
     let width = (&high - &low) / Rational::from(2);
     inward(&low, &high, &width)
 }

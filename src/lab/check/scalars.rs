@@ -176,14 +176,19 @@ impl Checker<'_> {
             Some(text) => self.whole(text, "figures", 1, 15).map(|n| u32::try_from(n).ok()),
             None => Some(None),
         };
-        Some(Tolerance { absolute: absolute?, relative: relative?, figures: figures? })
+        Some(Tolerance { absolute: absolute?, of_scale: None, relative: relative?, figures: figures? })
     }
 }
 
-/// `absolute` and `relative` in thousandths.
+/// `absolute` and `relative` in thousandths, `absolute` of the scale as well.
 fn tolerance(absolute: i64, relative: i64, figures: Option<u32>) -> Tolerance {
     let thousandths = |n: i64| Rational::from(n) / Rational::from(1000);
-    Tolerance { absolute: thousandths(absolute), relative: thousandths(relative), figures }
+    Tolerance {
+        absolute: thousandths(absolute),
+        of_scale: (absolute > 0).then(|| thousandths(absolute)),
+        relative: thousandths(relative),
+        figures,
+    }
 }
 
 fn is_id(text: &str) -> bool {
