@@ -1,9 +1,11 @@
 //! Many submissions: intake, in parallel, gradebook, statistics. Judges nothing.
 
+mod desk;
 mod gradebook;
 mod handouts;
 mod intake;
 mod marked;
+mod new_file;
 mod numbers;
 mod others;
 mod outcome;

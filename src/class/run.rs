@@ -1,25 +1,21 @@
 use super::Roster;
+use super::desk::{Desk, Named};
 use super::gradebook::Gradebook;
 use super::intake::{AnswerFile, UniqueNames};
-use super::marked::{Marked, our_failure, unreadable_submission};
-use super::numbers::{Bench, Benches, Numbers, WithoutNumbers, numbers};
+use super::new_file::NewFile;
+use super::numbers::{Benches, Numbers, WithoutNumbers};
 use super::others::Others;
 use super::outcome::Outcome;
 use super::record::Record;
 use super::statistics::Statistics;
 use super::students_seen::StudentsSeen;
-use crate::grading::{
-    Catalogue, HandMarks, HandMarksFile, MemberCard, Scorecard, grade, grade_beside_members,
-    grade_without_numbers, leave_to_a_person,
-};
+use crate::grading::{Catalogue, HandMarksFile};
 use crate::lab::LabDefinition;
 use crate::reference::Reference;
 use crate::report::{ReportError, ReportKit};
-use crate::source::{Finding, Severity, sanitize};
-use crate::submission::{AnswerSheet, Folder, Student, Submission, read};
+use crate::submission::{Student, Submission};
 use rayon::prelude::*;
 use std::io::{self, BufWriter, Read, Write};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
 /// Submissions in memory at a time; results are written in order after each such group.
@@ -169,216 +165,4 @@ fn report_stem(submission: &Submission) -> String {
     let ids: Vec<&str> =
         submission.students.iter().map(|s| s.id.as_str()).filter(|id| !id.is_empty()).collect();
     if ids.is_empty() { submission.id.clone() } else { ids.join("_") }
-}
-
-fn read_submission(file: &AnswerFile, sheet: &AnswerSheet) -> Submission {
-    let read = || match read_capped(&file.path) {
-        Ok(bytes) => {
-            let folder = Folder(file.path.parent().unwrap_or(Path::new("")).to_path_buf());
-            read(&file.id, &file.name, &bytes, sheet, &folder)
-        }
-        Err(error) => unreadable_submission(&file.id, &file.name, not_opened(&error)),
-    };
-    let mut submission = if file.path.is_symlink() && !file.followed {
-        unreadable_submission(&file.id, &file.name, is_a_link())
-    } else {
-        catch_unwind(AssertUnwindSafe(read))
-            .unwrap_or_else(|_| unreadable_submission(&file.id, &file.name, our_failure()))
-    };
-    if submission.students.is_empty() {
-        submission.students.push(Student { id: file.id.clone(), name: String::new() });
-    }
-    submission
-}
-
-fn is_a_link() -> Finding {
-    Finding {
-        severity: Severity::Error,
-        code: "file.link",
-        message: "This is a link to another file, which is not followed.".to_owned(),
-        help: Some("Hand in the file itself.".to_owned()),
-        span: None,
-    }
-}
-
-fn not_opened(error: &io::Error) -> Finding {
-    Finding {
-        severity: Severity::Error,
-        code: "file.not_opened",
-        message: format!("The file could not be opened: {error}."),
-        help: None,
-        span: None,
-    }
-}
-
-/// A submission, by whose numbers it is marked, and where its report goes.
-struct Named {
-    submission: Submission,
-    numbers: Numbers,
-    report: String,
-}
-
-/// What submissions are marked with.
-struct Desk<'a> {
-    job: &'a ClassJob<'a>,
-    benches: Benches<'a>,
-    without: WithoutNumbers,
-}
-
-impl Desk<'_> {
-    /// Reads an answer file with the values that its student has in place of letters.
-    fn read(&self, file: &AnswerFile) -> (Submission, Numbers) {
-        let lab = self.job.lab;
-        let mut submission = read_submission(file, &lab.sheet);
-        let mut own = numbers(lab, &mut submission, self.job.roster);
-        let theirs = own.variant().map(|variant| self.benches.lab(variant));
-        // That a lab does not work with somebody's values is told by marking.
-        if let Some(Ok(theirs)) = theirs.as_deref() {
-            submission = read_submission(file, &theirs.sheet);
-            own = numbers(lab, &mut submission, self.job.roster);
-        }
-        (submission, own)
-    }
-
-    /// In the order given. Submissions with the same numbers are marked one after another, so that what these need is at hand.
-    fn mark_all(&self, named: Vec<Named>) -> Result<Vec<Marked>, ClassError> {
-        let mut numbered: Vec<(usize, Named)> = named.into_iter().enumerate().collect();
-        numbered.sort_by(|(_, one), (_, two)| one.numbers.cmp(&two.numbers));
-        let marked = numbered.into_par_iter().map(|(place, named)| Ok((place, self.mark_and_write(named)?)));
-        let mut marked: Vec<(usize, Marked)> = marked.collect::<Result<_, ClassError>>()?;
-        marked.sort_by_key(|(place, _)| *place);
-        Ok(marked.into_iter().map(|(_, marked)| marked).collect())
-    }
-
-    fn mark_and_write(&self, named: Named) -> Result<Marked, ClassError> {
-        let Named { mut submission, numbers, report } = named;
-        let job = self.job;
-        // Members of a group that are still together were given the same.
-        let marks = job.marks.and_then(|file| Some(file.marks_for(&submission.students.first()?.id)));
-        let mut failed = submission.findings.iter().any(|f| f.code == our_failure().code);
-        let bench = numbers.variant().map(|variant| self.benches.get(variant));
-        let bench = bench.as_deref();
-        let marking = AssertUnwindSafe(|| self.marked(&numbers, bench, &submission, marks));
-        let scorecard = match catch_unwind(marking) {
-            Ok(Ok(card)) if !failed => card,
-            Ok(Err(finding)) if !failed => {
-                let message = finding.message.clone();
-                submission.findings.push(finding);
-                failed = true;
-                leave_to_a_person(job.lab, &submission, marks, &message)
-            }
-            _ => {
-                // A reading that failed has said so already.
-                if !failed {
-                    submission.findings.push(our_failure());
-                }
-                failed = true;
-                leave_to_a_person(job.lab, &submission, marks, &our_failure().message)
-            }
-        };
-        let kit = match (&numbers, bench) {
-            (Numbers::Lab, _) => job.kit,
-            (_, Some(Ok(bench))) => &bench.kit,
-            _ => self.without.kit(job.kit),
-        };
-        let page = match catch_unwind(AssertUnwindSafe(|| kit.student_page(&submission, &scorecard))) {
-            Ok(page) => page,
-            Err(_) => {
-                failed = true;
-                "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>polemark</title>\
-                 <p>polemark could not write this report. The marks are in gradebook.csv and results.jsonl.</p></html>"
-                    .to_owned()
-            }
-        };
-        NewFile::create(job.out.join(&report))?.write_all(page.as_bytes())?;
-        Ok(Marked {
-            parameters: numbers.values(job.lab),
-            variant: numbers.variant().cloned(),
-            other_variants: Vec::new(),
-            submission,
-            scorecard,
-            report,
-            failed,
-        })
-    }
-
-    /// Errors: what does not work with these numbers.
-    fn marked(
-        &self,
-        numbers: &Numbers,
-        bench: Option<&Result<Bench, String>>,
-        submission: &Submission,
-        marks: Option<&HandMarks>,
-    ) -> Result<Scorecard, Finding> {
-        let job = self.job;
-        match (numbers, bench) {
-            (Numbers::Own { members, .. }, Some(Ok(own))) => {
-                if members.is_empty() {
-                    return Ok(grade(&own.lab, &own.reference, &own.catalogue, submission, marks));
-                }
-                let cards = members.iter().filter_map(|(id, variant)| {
-                    let theirs = self.benches.get(variant);
-                    let theirs = theirs.as_ref().as_ref().ok()?;
-                    let none = Catalogue::default();
-                    let scorecard = grade(&theirs.lab, &theirs.reference, &none, submission, None);
-                    Some(MemberCard { id: id.clone(), scorecard })
-                });
-                let cards: Vec<MemberCard> = cards.collect();
-                let Bench { lab, reference, catalogue, .. } = own;
-                Ok(grade_beside_members(lab, reference, catalogue, submission, marks, &cards))
-            }
-            (Numbers::Own { .. }, Some(Err(why))) => Err(does_not_work(why)),
-            (Numbers::Unknown, _) => {
-                let reference = self.without.reference(job.reference);
-                Ok(grade_without_numbers(job.lab, reference, job.catalogue, submission, marks))
-            }
-            _ => Ok(grade(job.lab, job.reference, job.catalogue, submission, marks)),
-        }
-    }
-}
-
-fn does_not_work(why: &str) -> Finding {
-    Finding {
-        severity: Severity::Error,
-        code: "variant.fails",
-        message: format!(
-            "The right answers for your numbers could not be worked out ({}), which is not your fault. A person will mark it.",
-            sanitize(why)
-        ),
-        help: None,
-        span: None,
-    }
-}
-
-/// A file that takes its name only when it is whole.
-struct NewFile {
-    path: PathBuf,
-    file: tempfile::NamedTempFile,
-}
-
-impl NewFile {
-    fn create(path: PathBuf) -> Result<Self, ClassError> {
-        let folder = path.parent().unwrap_or(Path::new("."));
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".polemark-");
-        // Others may read it, as with any file one writes.
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
-        let file =
-            builder.tempfile_in(folder).map_err(|error| ClassError::Write { path: path.clone(), error })?;
-        Ok(Self { path, file })
-    }
-
-    fn write_all(mut self, bytes: &[u8]) -> Result<(), ClassError> {
-        self.file.write_all(bytes).map_err(|error| ClassError::Write { path: self.path.clone(), error })?;
-        self.finish()
-    }
-
-    fn finish(self) -> Result<(), ClassError> {
-        let Self { path, file } = self;
-        match file.persist(&path) {
-            Ok(_) => Ok(()),
-            Err(failed) => Err(ClassError::Write { path, error: failed.error }),
-        }
-    }
 }

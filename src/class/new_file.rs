@@ -1,0 +1,36 @@
+use super::run::ClassError;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// A file that takes its name only when it is whole.
+pub struct NewFile {
+    pub path: PathBuf,
+    pub file: tempfile::NamedTempFile,
+}
+
+impl NewFile {
+    pub fn create(path: PathBuf) -> Result<Self, ClassError> {
+        let folder = path.parent().unwrap_or(Path::new("."));
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".polemark-");
+        // Others may read it, as with any file one writes.
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
+        let file =
+            builder.tempfile_in(folder).map_err(|error| ClassError::Write { path: path.clone(), error })?;
+        Ok(Self { path, file })
+    }
+
+    pub fn write_all(mut self, bytes: &[u8]) -> Result<(), ClassError> {
+        self.file.write_all(bytes).map_err(|error| ClassError::Write { path: self.path.clone(), error })?;
+        self.finish()
+    }
+
+    pub fn finish(self) -> Result<(), ClassError> {
+        let Self { path, file } = self;
+        match file.persist(&path) {
+            Ok(_) => Ok(()),
+            Err(failed) => Err(ClassError::Write { path, error: failed.error }),
+        }
+    }
+}
