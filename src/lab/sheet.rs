@@ -1,8 +1,11 @@
-use super::{Check, Criterion, Curve, Described, ModelDefinition, Parameter, Question, QuestionField};
+use super::{
+    Check, Criterion, Curve, Described, ModelDefinition, OperatingPointDefinition, Parameter, Question,
+    QuestionField,
+};
 use crate::algebra::from_f64;
 use crate::lti::InputKind;
-use crate::model::letters_at_rest;
-use crate::submission::{AnswerSheet, AnsweredIn, Field, FieldKind, FieldLetters, Unit};
+use crate::model::{Model, letters_at_rest};
+use crate::submission::{AnswerSheet, AnsweredIn, Field, FieldKind, FieldLetters, LineNames, Unit};
 use std::collections::BTreeMap;
 
 /// What an answer file may hold. Nothing of the right answers goes in.
@@ -18,12 +21,15 @@ pub(super) fn sheet(
 ) -> AnswerSheet {
     let asked =
         questions.iter().flat_map(|question| question.fields.iter().map(move |field| (question, field)));
-    let letters = asked.filter(|(_, field)| field.kind == FieldKind::TransferFunction).filter_map(
-        |(question, field)| {
-            let own = letters(models, about(question, field).as_deref(), field.answered_in);
-            (own != FieldLetters::default()).then(|| (field.path.clone(), own))
-        },
-    );
+    let letters = asked.filter_map(|(question, field)| {
+        let point = point(models, about(question, field).as_deref());
+        let own = match field.kind {
+            FieldKind::TransferFunction => letters(point, field.answered_in),
+            FieldKind::Formula => FieldLetters { line: point.map(line), ..FieldLetters::default() },
+            _ => return None,
+        };
+        (own != FieldLetters::default()).then(|| (field.path.clone(), own))
+    });
     let letters = letters.collect();
     let fields = questions.iter().flat_map(|question| {
         question.fields.iter().map(move |field| Field {
@@ -47,14 +53,28 @@ pub(super) fn sheet(
     }
 }
 
-/// Values at rest that may stand in a formula about `system`: as `h_0`, or `h` alone, which can mean nothing else there.
-fn letters(models: &[ModelDefinition], system: Option<&str>, answered_in: AnsweredIn) -> FieldLetters {
+type Point<'a> = (&'a Model, &'a OperatingPointDefinition);
+
+/// The operating point that a path such as `cart.hanging` means.
+fn point<'a>(models: &'a [ModelDefinition], system: Option<&str>) -> Option<Point<'a>> {
+    let (wanted, point) = system?.split_once('.')?;
+    let model = models.iter().find(|model| model.id == wanted)?;
+    let found = model.operating_points.iter().find(|one| one.id == point)?;
+    Some((&model.model, found))
+}
+
+fn line((model, point): Point<'_>) -> LineNames {
+    LineNames {
+        output: point.output.clone(),
+        input: point.input.clone(),
+        at_rest: model.coordinates.iter().map(|one| &one.name).chain(&model.inputs).cloned().collect(),
+    }
+}
+
+/// Values at rest that may stand in a formula about a point: as `h_0`, or `h` alone, which can mean nothing else there.
+fn letters(point: Option<Point<'_>>, answered_in: AnsweredIn) -> FieldLetters {
     let mut own = FieldLetters { answered_in, ..FieldLetters::default() };
-    let found = models.iter().find_map(|model| {
-        let point =
-            model.operating_points.iter().find(|p| Some(format!("{}.{}", model.id, p.id).as_str()) == system);
-        point.map(|point| letters_at_rest(&model.model, &point.at))
-    });
+    let found = point.map(|(model, point)| letters_at_rest(model, &point.at));
     for one in found.unwrap_or_default() {
         let value = one.value.as_rational().cloned();
         let Some(value) = value.or_else(|| from_f64(one.value.to_f64())) else { continue };

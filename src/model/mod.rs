@@ -23,7 +23,7 @@ pub use equilibrium::Equilibrium;
 pub use exact::Exact;
 pub use letters::{
     AtRest, LetterAgreement, LetterAtRest, LetterDerivation, LetterEquation, LetterPlace, LetterTerm,
-    LettersError, Signal, letters_at_rest,
+    LettersError, Signal, is_light, letters_at_rest,
 };
 pub use linear_form::{LinearForm, Root};
 pub use linearization::{Linearization, linearize};

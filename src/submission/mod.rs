@@ -23,6 +23,7 @@ mod series;
 mod sheet;
 mod stated_line;
 mod unit;
+mod unworkable;
 mod value;
 mod words;
 mod wrapping;
@@ -43,7 +44,7 @@ pub use attachments::{AttachmentError, Attachments, Folder, MAX_ATTACHMENT_BYTES
 pub use own_claims::{ContradictedClaim, claims_about, contradicted_claims};
 pub use read::{MAX_PROSE_BYTES, read};
 pub use self_check::self_check;
-pub use sheet::{AnswerSheet, AnsweredIn, Field, FieldKind, FieldLetters};
+pub use sheet::{AnswerSheet, AnsweredIn, Field, FieldKind, FieldLetters, LineNames};
 pub use unit::{Unit, UnitRatio};
 pub use words::{
     NonlinearityKind, nonlinearity_name, nonlinearity_word, shape_name, shape_word, stability_name,

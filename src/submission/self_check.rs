@@ -1,6 +1,7 @@
 use super::own_claims::contradicted_claims;
 use super::problem::quote;
 use super::shape_name;
+use super::unworkable::unworkable;
 use super::{
     Answer, AnswerSheet, AnswerValue, Decimal, Field, FieldKind, FinalValue, Series, Submission,
     TypedComplex, Unit, UnitRatio,
@@ -26,6 +27,7 @@ pub fn self_check(submission: &Submission, sheet: &AnswerSheet) -> Vec<Finding> 
         .filter(|field| !plotted_otherwise(field, submission, sheet))
         .map(missing)
         .collect();
+    findings.extend(unworkable(submission, sheet));
     let mut systems: BTreeMap<&str, System<'_>> = BTreeMap::new();
     for field in &sheet.fields {
         if let (Some(about), Some(answer)) = (field.about.as_deref(), submission.answers.get(&field.path)) {

@@ -80,4 +80,15 @@ pub struct FieldLetters {
     pub symbols: BTreeMap<String, Rational>,
     /// Other spellings of them: `h` → `h_0`.
     pub also: BTreeMap<String, String>,
+    /// Of a tangent: what it is a tangent of.
+    pub line: Option<LineNames>,
+}
+
+/// The names in the equation of a tangent.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LineNames {
+    pub output: String,
+    pub input: String,
+    /// Coordinates and inputs, whose values at rest are `x_0`.
+    pub at_rest: Vec<String>,
 }

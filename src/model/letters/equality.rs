@@ -1,13 +1,27 @@
 //! Whether a formula is the derived function, by multiplying crosswise.
 
 use super::places::solved;
-use super::ring::{Atom, Fraction, Ring, S};
+use super::ring::{Atom, Fraction, Generator, Ring, S};
 use super::symbolic::evaluate;
 use super::{LetterDerivation, Trouble};
 use crate::algebra::{Budget, Expression, MultivariatePolynomial as Poly};
 
 /// Products of coefficients for one formula: a few hundredths of a second.
 const STEPS: usize = 60_000;
+
+/// Whether `formula` can be multiplied out, with work left to compare it; every name in it is a letter.
+pub fn is_light(formula: &Expression) -> bool {
+    let mut ring = Ring::default();
+    for symbol in formula.symbols() {
+        if ring.named(&symbol.name).is_none() {
+            let atom = Atom::Name { name: symbol.name, order: 1 };
+            ring.add(Generator { atom, value: 1.0, exact: None });
+        }
+    }
+    let lookup = |name: &str, _: u8, ring: &Ring| ring.named(name);
+    let evaluated = evaluate(&mut ring, formula, &lookup, &mut Budget::new(STEPS / 2));
+    !matches!(evaluated, Err(Trouble::OverBudget))
+}
 
 impl LetterDerivation {
     /// Whether `formula` in `variable` is the derived function for all values of the letters that can be at rest: what stands

@@ -14,6 +14,7 @@ mod symbolic;
 use super::{Equilibrium, Model};
 use crate::algebra::{Expression, MultivariatePolynomial, OverBudget, Polynomial, Rational, to_f64};
 use crate::lti::TransferFunction;
+pub use equality::is_light;
 pub use places::LetterPlace;
 pub use rest::{LetterAtRest, letters_at_rest};
 use ring::Ring;
