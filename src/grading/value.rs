@@ -98,6 +98,7 @@ fn hardly_any(features: &Features, kind: FeatureKind) -> bool {
     match kind {
         Peak | PeakTimeS | RiseTime0100S => features.borderline.hardly_a_peak,
         RiseTime1090S => features.borderline.rise_time_10_90_s.is_some(),
+        OvershootPercent => features.overshoot_percent.is_some_and(|percent| percent <= 0.1),
         _ => false,
     }
 }
@@ -713,6 +714,14 @@ mod tests {
             Peak,
             &[(None, "right"), (Some("1"), "right"), (Some("1.1"), "value.differs")],
         );
+        // No overshoot may be said as 0 % or as none.
+        check_step(
+            "1",
+            "1 3 1",
+            OvershootPercent,
+            &[(None, "right"), (Some("0"), "right"), (Some("5"), "value.differs")],
+        );
+        check_step("1", "1 0.4 1", OvershootPercent, &[(None, "value.number_given_unbounded")]);
         check_step("1", "1 1.9 1", RiseTime0100S, &[(None, "right"), (Some("3"), "value.differs")]);
         check_step("1", "1 0.4 1", Peak, &[(None, "value.number_given_unbounded"), (Some("1.53"), "right")]);
         // It starts at 10 %: ln 9 s from there.

@@ -64,6 +64,34 @@ pub(super) fn without_assignments<'t>(
     Ok((rest, left_out))
 }
 
+/// The text with spaces for the lines with which programs head a fraction: `Transfer function:`, `Inputs (1): ['u[0]']`.
+///
+/// Byte for byte as long as it was.
+pub(super) fn without_headings(text: &str) -> Cow<'_, str> {
+    const HEADS: &[&str] = &[
+        "<TransferFunction",
+        "<LinearICSystem",
+        "Inputs (",
+        "Outputs (",
+        "Transfer function:",
+        "Zero/pole/gain:",
+        "From input",
+        ">>",
+    ];
+    let heads = |line: &str| HEADS.iter().any(|head| line.trim_start().starts_with(head));
+    let Some(last) = text.trim_end().rfind('\n') else { return Cow::Borrowed(text) };
+    if !text[..last].lines().any(heads) {
+        return Cow::Borrowed(text);
+    }
+    let blanked = text.split_inclusive('\n').map(|line| match heads(line) {
+        true => {
+            line.chars().map(|c| if c == '\n' { "\n".to_owned() } else { " ".repeat(c.len_utf8()) }).collect()
+        }
+        false => line.to_owned(),
+    });
+    Cow::Owned(blanked.collect())
+}
+
 /// Where MATLAB's `s = tf('s');` at the beginning ends.
 fn tf_of_s(text: &str) -> Option<usize> {
     let mut rest = text.trim_start();

@@ -1,4 +1,5 @@
-use super::beyond_formula::{fraction_rule, without_assignments};
+use super::beyond_formula::{fraction_rule, without_assignments, without_headings};
+use super::called::call;
 use super::comma_to_point::{Pointed, comma_in_list_text, commas_read, settled};
 use super::decimal_commas::decimal_comma_between;
 use super::letters::Letters;
@@ -99,17 +100,8 @@ fn in_letters(formula: &Expression, symbols: &Symbols) -> bool {
 fn parse_formula(text: &str, letters: &Letters) -> Result<(TransferFunction, Option<Expression>), Problem> {
     let start = after_name(text);
     let body = &text[start..];
-    if let Some((num, den)) = matlab(body) {
-        if let Some(problem) = [num, den].into_iter().find_map(comma_in_list_text) {
-            return Err(Problem { start, end: text.len(), ..problem });
-        }
-        let list = |list: &str| coefficient_words(list).map(Polynomial::new);
-        let problem = || Problem::new(CODE, start, text.len(), "This `tf(…)` cannot be read.").help(HELP);
-        let (num, den) = (list(num).ok_or_else(problem)?, list(den).ok_or_else(problem)?);
-        return match TransferFunction::new(num, den) {
-            Some(g) => Ok((g, None)),
-            None => Err(Problem::new(CODE, start, text.len(), "The denominator is zero.").help(HELP)),
-        };
+    if let Some(call) = call(body) {
+        return call.read(CODE, (start, text.len()), coefficient_words).map(|g| (g, None));
     }
     let symbols = &letters.symbols;
     let read = |expression: Expression| {
@@ -154,15 +146,6 @@ fn formula_problem(error: ExpressionError, offset: usize) -> Problem {
     let help = error.help.as_deref().map_or_else(|| HELP.to_owned(), sentence);
     let message = format!("The formula cannot be read here: {}.", error.message);
     Problem::new(CODE, error.start + offset, error.end + offset, message).help(help)
-}
-
-/// The two lists of `tf([…], […])`.
-fn matlab(text: &str) -> Option<(&str, &str)> {
-    let inner = text.trim().trim_end_matches(';').strip_prefix("tf")?.trim_start();
-    let inner = inner.strip_prefix('(')?.strip_suffix(')')?.trim();
-    let (num, rest) = inner.strip_prefix('[')?.split_once(']')?;
-    let den = rest.trim_start().strip_prefix(',')?.trim().strip_prefix('[')?.strip_suffix(']')?;
-    Some((num, den))
 }
 
 /// Decimals separated by commas, semicolons or spaces.
@@ -210,6 +193,7 @@ impl Reader<'_> {
         node: &Node,
         text: &str,
     ) -> Result<(TransferFunction, Option<Expression>), Box<Finding>> {
+        let text = &without_headings(text);
         let (text, left_out) = without_assignments(text, &self.letters.symbols, CODE)
             .map_err(|problem| self.place(problem, node))?;
         match fraction_rule(&text) {
@@ -255,7 +239,7 @@ impl Reader<'_> {
         let text = &bare(text, &self.letters.symbols);
         let from = after_name(text);
         // In MATLAB's lists commas separate.
-        let from = if matlab(&text[from..]).is_some() { text.len() } else { from };
+        let from = if call(&text[from..]).is_some() { text.len() } else { from };
         let pointed = self.pointed(node, text, from, settled([&text[from..]]))?;
         parse_formula(&pointed, self.letters).map_err(|problem| self.place(problem, node))
     }
@@ -463,6 +447,7 @@ mod tests {
             "{num: [0, −0.06, 0], den: ['0.0132', 0.0024, 4.1202e-1, 0.05886]}",
             "tf([-0.06 0], [0.0132 0.0024 0.41202 0.05886])",
             "tf([-0.06, 0], [0.0132, 0.0024, 0.41202, 0.05886]);",
+            "G = ct.tf([-0.06, 0], [0.0132, 0.0024, 0.41202, 0.05886])",
             "$G(s) = -0.06s / (0.0132s^3 + 0.0024s^2 + 0.41202s + 0.05886)$",
             r"$$\frac{-0.06 s}{0.0132 s^3 + 0.0024 s^2 + 0.41202 s + 0.05886}$$",
             r"G(s) = \(-0.06s / (0.0132s^3 + 0.0024s^2 + 0.41202s + 0.05886)\).",
@@ -570,6 +555,50 @@ mod tests {
         ] {
             let found = read(yaml).unwrap_or_else(|finding| panic!("{yaml:?}: {}", finding.message));
             assert!(found.0.equals(&expected), "{yaml:?}: {:?}", found.0);
+        }
+    }
+
+    #[test]
+    fn calls_of_programs_are_read() {
+        for (yaml, same) in [
+            ("tf(1,[1000 50])", "1 / (1000s + 50)"),
+            ("tf(0.001, [1 0.05])", "0.001 / (s + 0.05)"),
+            ("tf([1],[1 2])", "1 / (s + 2)"),
+            ("G = tf([1 2], 5)", "(s + 2) / 5"),
+            ("zpk([],[-1 -2],5)", "5 / ((s + 1)*(s + 2))"),
+            ("zpk([], -0.05, 0.001)", "0.001 / (s + 0.05)"),
+            ("zpk([-3], [-1+2i, -1-2i, 0], 2)", "2*(s + 3) / (s*(s^2 + 2s + 5))"),
+            ("zpk(-3, [-1+2i -1-2i], 2);", "2*(s + 3) / (s^2 + 2s + 5)"),
+            (
+                "|\n    <TransferFunction>: sys[0]\n    Inputs (1): ['u[0]']\n    Outputs (1): ['y[0]']\n\n          1\n    -------------\n    1000 s + 50\n",
+                "1 / (1000s + 50)",
+            ),
+            (
+                "|\n    sys =\n\n           5\n      -----------\n      (s+1) (s+2)\n\n    Continuous-time zero/pole/gain model.\n",
+                "5 / ((s + 1)*(s + 2))",
+            ),
+            ("|\n    Transfer function:\n        1\n    --------\n    s + 2\n", "1 / (s + 2)"),
+        ] {
+            let (found, notes) = read(yaml).unwrap_or_else(|finding| panic!("{yaml:?}: {}", finding.message));
+            assert!(found.equals(&read(same).unwrap().0), "{yaml:?}: {found:?}");
+            assert!(
+                notes.iter().all(|note| note.code == "transfer_function.improper"),
+                "{yaml:?}: {notes:?}"
+            );
+        }
+        for (yaml, words) in [
+            ("ss([0 1; -2 -3], [0; 1], [1 0], 0)", "state-space model"),
+            ("zpk([], [-1+2i], 1)", "with their conjugates"),
+            ("zpk([], [-1])", "three parts"),
+            ("zpk([], [-1], K)", "gain"),
+            ("tf([1], [1 2], 0.1)", "two lists"),
+            ("tf(1, x)", "cannot be read"),
+            ("tf(1, 0)", "zero"),
+            ("tf(1,5,[1 2])", "two lists"),
+            ("tf([1,5 2], [1 2])", "`1,5`"),
+        ] {
+            let finding = read(yaml).expect_err(yaml);
+            assert!(finding.message.contains(words), "{yaml:?}: {finding:?}");
         }
     }
 

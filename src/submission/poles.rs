@@ -1,6 +1,8 @@
 use super::Decimal;
 use super::decimal::{is_minus, scan};
+use super::printed_poles::printed;
 use super::problem::{Problem, quote};
+use crate::algebra::{parse_decimal, significant, to_f64};
 
 /// Poles in one list, repeated ones counted.
 pub(super) const MAX_POLES: usize = 60;
@@ -23,7 +25,42 @@ pub(super) struct ReadPole {
 ///
 /// `a ± bj` gives two; a multiplicity repeats the pole.
 pub(super) fn parse_poles(text: &str) -> Result<Vec<ReadPole>, Problem> {
-    listed(text).or_else(|problem| row(text).ok_or(problem))
+    let (plain, power) = printed(text);
+    let read = listed(&plain).or_else(|problem| row(&plain).or_else(|| rows(&plain)).ok_or(problem));
+    let scaled = |pole: ReadPole| ReadPole { re: scaled(pole.re, power), im: scaled(pole.im, power), ..pole };
+    read.map(|poles| poles.into_iter().map(scaled).collect())
+}
+
+/// Times 10^`power`.
+fn scaled(number: Decimal, power: i32) -> Decimal {
+    if power == 0 || number.is_zero() {
+        return number;
+    }
+    Decimal {
+        text: format!("{}e{power}", number.text),
+        value: number.value * crate::algebra::Rational::from(10).pow(power as isize),
+        last_place: number.last_place.saturating_add(power),
+    }
+}
+
+/// Several lines of which each is a list or a [`row`], as Python breaks a long array.
+fn rows(text: &str) -> Option<Vec<ReadPole>> {
+    let body = text.trim();
+    let inner = body.strip_prefix('[')?.strip_suffix(']')?;
+    let mut at = text.find('[')? + 1;
+    let mut poles = Vec::new();
+    for line in inner.split_inclusive('\n') {
+        if !line.trim().is_empty() {
+            let read = listed(line).ok().or_else(|| pieces(line, line.trim(), true))?;
+            poles.extend(read.into_iter().map(|pole| ReadPole {
+                start: at + pole.start,
+                end: at + pole.end,
+                ..pole
+            }));
+        }
+        at += line.len();
+    }
+    (poles.len() <= MAX_POLES).then_some(poles)
 }
 
 /// MATLAB's row without commas: `-0.143 -0.0195+5.59i -0.0195-5.59i`.
@@ -32,12 +69,16 @@ pub(super) fn parse_poles(text: &str) -> Result<Vec<ReadPole>, Problem> {
 fn row(text: &str) -> Option<Vec<ReadPole>> {
     let body = text.trim().trim_end_matches(';');
     let inner = body.strip_prefix('[').and_then(|rest| rest.strip_suffix(']'));
-    let bare = inner.unwrap_or(body);
+    pieces(text, inner.unwrap_or(body), inner.is_some())
+}
+
+/// Poles with white space between them; `bracketed`: in a list.
+fn pieces(text: &str, bare: &str, bracketed: bool) -> Option<Vec<ReadPole>> {
     if bare.contains([',', ';', '&', '\n', '(']) {
         return None;
     }
     let (mut poles, mut from): (Vec<ReadPole>, usize) = (Vec::new(), 0);
-    let (mut pieces, mut complex, mut negative) = (0, inner.is_some(), true);
+    let (mut pieces, mut complex, mut negative) = (0, bracketed, true);
     for piece in bare.split_whitespace() {
         let at = from + text[from..].find(piece)?;
         from = at + piece.len();
@@ -63,7 +104,9 @@ fn row(text: &str) -> Option<Vec<ReadPole>> {
 /// Poles with separators between them.
 fn listed(text: &str) -> Result<Vec<ReadPole>, Problem> {
     let mut cursor = Cursor { text, at: 0 };
-    let mut poles = Vec::new();
+    let mut poles: Vec<ReadPole> = Vec::new();
+    // `two poles at`: how many, where it stands, and how many poles were read before it.
+    let mut told: Option<(usize, usize, usize)> = None;
     cursor.skip_space();
     let bracketed = cursor.eat_any(&['[', '{']).is_some();
     loop {
@@ -72,10 +115,38 @@ fn listed(text: &str) -> Result<Vec<ReadPole>, Problem> {
             cursor.eat_any(&[']', '}']);
             cursor.skip_separators();
         }
-        if cursor.at == text.len() || (!poles.is_empty() && is_remark(cursor.rest())) {
+        let end = cursor.at == text.len() || (!poles.is_empty() && is_remark(cursor.rest()));
+        let here = cursor.at;
+        let words = if end { None } else { cursor.words()? };
+        if (end || words.is_some())
+            && let Some((count, at, before)) = told.take()
+        {
+            match poles.len() - before {
+                found if found == count => {}
+                1 => {
+                    let pole = poles[before].clone();
+                    poles.extend(std::iter::repeat_n(pole, count - 1));
+                }
+                found => {
+                    let message = format!("{count} poles are told here, and {found} are given.");
+                    return Err(Problem::new(CODE, at, cursor.at, message).help(HELP));
+                }
+            }
+        }
+        if end {
             return Ok(poles);
         }
+        let times = match words {
+            Some(Told::Each(times)) => times,
+            Some(Told::Together(count)) => {
+                told = Some((count, here, poles.len()));
+                1
+            }
+            None => 1,
+        };
         let found = cursor.item()?;
+        let found: Vec<ReadPole> =
+            found.iter().flat_map(|pole| std::iter::repeat_n(pole.clone(), times)).collect();
         if poles.len() + found.len() > MAX_POLES {
             return Err(Problem::new(
                 "poles.too_many",
@@ -148,6 +219,15 @@ fn is_remark(text: &str) -> bool {
             ABOUT.contains(&word) || BESIDE.contains(&word)
         })
         && about
+}
+
+/// What words in front of a pole say about how many there are.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Told {
+    /// `a double pole at`
+    Each(usize),
+    /// `two poles at`
+    Together(usize),
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -232,10 +312,82 @@ impl Cursor<'_> {
         Problem::new(CODE, start, end, format!("{} is not a number we can read.", quote(shown))).help(HELP)
     }
 
+    /// Passes over `a double pole at`, `two poles at`, `the poles are` in front of a pole.
+    fn words(&mut self) -> Result<Option<Told>, Problem> {
+        const NOUNS: &[&str] = &["pole", "poles", "root", "roots", "eigenvalue", "eigenvalues", "pair"];
+        const BESIDE: &[&str] = &[
+            "a",
+            "an",
+            "the",
+            "real",
+            "complex",
+            "conjugate",
+            "stable",
+            "unstable",
+            "simple",
+            "single",
+            "one",
+            "another",
+            "of",
+            "is",
+            "are",
+            "lies",
+            "lie",
+            "there",
+            "located",
+            "its",
+            "and",
+            "with",
+            "in",
+        ];
+        let start = self.at;
+        let (mut end, mut noun, mut at_place, mut each, mut together) = (start, false, false, 1, 0);
+        loop {
+            let rest = self.text[end..].trim_start_matches([' ', '\t']);
+            let from = self.text.len() - rest.len();
+            let length = rest.find(|c: char| !c.is_alphabetic()).unwrap_or(rest.len());
+            let word = rest[..length].to_lowercase();
+            match word.as_str() {
+                "double" => each = 2,
+                "triple" => each = 3,
+                "two" | "both" => together = 2,
+                "three" => together = 3,
+                "four" => together = 4,
+                "at" => at_place = true,
+                // Only as the place of a pole: `the origin` is 0.
+                word if NOUNS.contains(&word) => noun = true,
+                word if BESIDE.contains(&word) => {}
+                _ => break,
+            }
+            end = from + length;
+        }
+        let told = noun || (at_place && end > start);
+        if !told {
+            return Ok(None);
+        }
+        if self.text[end..].starts_with(':') {
+            end += 1;
+        }
+        if self.text[end..].trim().is_empty() {
+            return Err(self.unreadable(start, end));
+        }
+        self.at = end;
+        match (each, together) {
+            (each, 0) => Ok(Some(Told::Each(each))),
+            (1, together) => Ok(Some(Told::Together(together))),
+            _ => Err(self.unreadable(start, end)),
+        }
+    }
+
     /// A pole, its conjugate after `±`, and repetitions.
     fn item(&mut self) -> Result<Vec<ReadPole>, Problem> {
         let named = self.skip_name();
         let start = self.at;
+        if self.eat_word("origin") || self.eat_word("the origin") {
+            let zero = Decimal { text: "0".to_owned(), value: crate::algebra::Rational::ZERO, last_place: 0 };
+            let pole = ReadPole { re: zero, im: Decimal::absent(), start, end: self.at };
+            return Ok(vec![pole; self.multiplicity()?]);
+        }
         let opened = self.eat_any(&['(']).is_some();
         let first = self.term(start, true)?;
         self.skip_space();
@@ -290,20 +442,30 @@ impl Cursor<'_> {
 
     /// Passes over `s =`, `p1 =`, `p_{1,2}:`, `≈` in front of a pole; how many poles the indices name, at least 1.
     fn skip_name(&mut self) -> usize {
-        let rest = self.rest();
         let mut named = 1;
-        if rest.starts_with(|c: char| c.is_alphabetic()) {
+        let mut before: Option<String> = None;
+        loop {
+            self.skip_space();
+            let rest = self.rest();
             let name = rest.char_indices().find(|(i, c)| {
                 !(*i == 0
                     || c.is_ascii_digit()
                     || matches!(c, '_' | '{' | '}' | ',' | ' ' | '₀'..='₉' | '-' | '/'))
             });
-            if let Some((i, c)) = name
-                && matches!(c, '=' | ':' | '≈')
-            {
-                named = indices(&rest[..i]);
-                self.at += i + c.len_utf8();
+            let Some((i, c)) = name.filter(|(_, c)| matches!(c, '=' | ':' | '≈')) else { break };
+            if !rest.starts_with(char::is_alphabetic) {
+                break;
             }
+            let own = rest[..i].trim().to_owned();
+            // `s1 = s2 = 0` is a pole that is there twice, `s = p = 0` is not.
+            named = match &before {
+                Some(other) if *other != own && other.chars().next() == own.chars().next() => {
+                    named + indices(&own)
+                }
+                _ => named.max(indices(&own)),
+            };
+            before = Some(own);
+            self.at += i + c.len_utf8();
         }
         loop {
             self.skip_space();
@@ -386,6 +548,34 @@ impl Cursor<'_> {
     }
 
     fn number(&mut self) -> Result<Option<Decimal>, Problem> {
+        let start = self.at;
+        if let Some((value, end)) = root(self.rest()) {
+            self.at += end;
+            return Ok(Some(value));
+        }
+        let Some(number) = self.plain_number()? else { return Ok(None) };
+        // `-1/98.77`; but `1/2j` can be read in two ways.
+        let after = self.at;
+        self.skip_space();
+        if self.eat_any(&['/']).is_some() {
+            self.skip_space();
+            if let Some(below) = self.plain_number()?
+                && !below.is_zero()
+                && !self
+                    .rest()
+                    .trim_start_matches([' ', '*', '·'])
+                    .starts_with(['i', 'j', 'I', 'J', '/', '^'])
+                && let Ok(value) = parse_decimal(&significant(to_f64(&(&number.value / &below.value)), 14))
+            {
+                let text = self.text[start..self.at].to_owned();
+                return Ok(Some(Decimal { text, value, last_place: number.last_place.min(-12) }));
+            }
+        }
+        self.at = after;
+        Ok(Some(number))
+    }
+
+    fn plain_number(&mut self) -> Result<Option<Decimal>, Problem> {
         let Some((number, length)) = scan(self.rest()) else { return Ok(None) };
         if let Some(problem) = decimal_comma(self.text, self.at, length) {
             return Err(problem);
@@ -501,6 +691,26 @@ fn decimal_comma(text: &str, start: usize, length: usize) -> Option<Problem> {
         )
         .help(format!("Write {}; if two numbers are meant, put a space after the comma.", quote(&written))),
     )
+}
+
+/// `sqrt(1962)`, `√1962`, `\\sqrt{1962}` at the beginning, as the nearest decimal of 14 figures; and its length.
+fn root(text: &str) -> Option<(Decimal, usize)> {
+    let after = ["\\sqrt", "sqrt", "√"].iter().find_map(|sign| text.strip_prefix(sign))?;
+    let inner = after.trim_start();
+    let close = match inner.chars().next()? {
+        '(' => Some(')'),
+        '{' => Some('}'),
+        _ => None,
+    };
+    let inner = inner.strip_prefix(['(', '{']).unwrap_or(inner).trim_start();
+    let (number, length) = scan(inner)?;
+    let mut rest = &inner[length..];
+    if let Some(close) = close {
+        rest = rest.trim_start().strip_prefix(close)?;
+    }
+    let end = text.len() - rest.len();
+    let decimal = Decimal::parse(&significant(to_f64(&number.ok()?.value).sqrt(), 14)).ok()?;
+    Some((Decimal { text: text[..end].to_owned(), ..decimal }, end))
 }
 
 fn unit_size() -> Decimal {
@@ -638,6 +848,33 @@ mod tests {
         check("[-1 2]", &[("-1", "0"), ("2", "0")]);
         check("-1 +2i", &[("-1", "2")]);
         check("−3 −1+2i", &[("-3", "0"), ("-1", "2")]);
+        check("pole at s = -0.05", &[("-0.05", "0")]);
+        check("pole: -0.05", &[("-0.05", "0")]);
+        check("complex pair at -1 ± 2j", &[("-1", "2"), ("-1", "-2")]);
+        check("-1/98.77", &[("-1/98.77", "0")]);
+        check("±sqrt(1962)", &[("sqrt(1962)", "0"), ("-sqrt(1962)", "0")]);
+        check("-1 ± √2 j", &[("-1", "√2"), ("-1", "-√2")]);
+        check(
+            "ans =\n\n  -1.0000 + 2.0000i\n  -1.0000 - 2.0000i\n",
+            &[("-1.0000", "2.0000"), ("-1.0000", "-2.0000")],
+        );
+        check(
+            "p =\n\n   1.0e+02 *\n\n  -0.2398 + 0.3519i\n  -0.2398 - 0.3519i\n  -0.0500\n",
+            &[("-0.2398e2", "0.3519e2"), ("-0.2398e2", "-0.3519e2"), ("-0.0500e2", "0")],
+        );
+        check("array([-1.+2.j, -1.-2.j,\n       -3.+0.j])", &[("-1", "2"), ("-1", "-2"), ("-3", "0")]);
+        check("[-1.+2.j -1.-2.j\n -3.+0.j -4.+0.j]", &[("-1", "2"), ("-1", "-2"), ("-3", "0"), ("-4", "0")]);
+    }
+
+    #[test]
+    fn a_scale_in_front_counts() {
+        let poles = parse_poles("ans =\n  1.0e+03 *\n  -0.2398\n  -0.0500").unwrap();
+        let values: Vec<_> = poles.iter().map(|pole| (to_f64(&pole.re.value), pole.re.last_place)).collect();
+        assert_eq!(values, [(-239.8, -1), (-50.0, -1)]);
+        let text = "ans =\n  1.0e+03 *\n  -0.2398";
+        assert_eq!(&text[poles[0].start..poles[0].end], "-0.2398");
+        assert!((to_f64(&parse_poles("-1/98.77").unwrap()[0].re.value) + 1.0 / 98.77).abs() < 1e-14);
+        assert!((to_f64(&parse_poles("sqrt(2)").unwrap()[0].re.value) - 2f64.sqrt()).abs() < 1e-13);
     }
 
     #[test]
@@ -663,6 +900,27 @@ mod tests {
         ] {
             check(text, &[("-1", "0"), ("-1", "0")]);
         }
+        for text in [
+            "s1 = s2 = 0",
+            "s_1 = s_2 = 0",
+            "double pole at 0",
+            "a double pole at s = 0",
+            "two poles at s = 0",
+            "both poles at 0",
+            "double pole at the origin",
+            "Double pole in the origin",
+            "two poles in the origin",
+            "0 (two times)",
+            "0 (double)",
+            "two poles: 0, 0",
+            "the poles are 0 and 0",
+        ] {
+            check(text, &[("0", "0"), ("0", "0")]);
+        }
+        check("two poles at 0 and one at -5", &[("0", "0"), ("0", "0"), ("-5", "0")]);
+        check("two poles at -1 and -2", &[("-1", "0"), ("-2", "0")]);
+        check("a pole at -1 and a double pole at -2", &[("-1", "0"), ("-2", "0"), ("-2", "0")]);
+        check("s = p = 0", &[("0", "0")]);
         check("-1 (triple), -2", &[("-1", "0"), ("-1", "0"), ("-1", "0"), ("-2", "0")]);
         check("-1 double and -2", &[("-1", "0"), ("-1", "0"), ("-2", "0")]);
         check("-1 ± 2j (x2)", &[("-1", "2"), ("-1", "2"), ("-1", "-2"), ("-1", "-2")]);
@@ -677,8 +935,11 @@ mod tests {
             ("-1 + 2", CODE, "-1 + 2"),
             ("2j + 3j", CODE, "2j + 3j"),
             ("-1 -2", CODE, "-1 -2"),
-            ("sqrt(2)", CODE, "sqrt(2)"),
-            ("-1/3", "poles.multiplicity", "/3"),
+            ("sqrt(x)", CODE, "sqrt(x)"),
+            ("-1/2j", "poles.multiplicity", "/2j"),
+            ("two poles at 0, -5 and -7", CODE, "two poles at 0, -5 and -7"),
+            ("double two poles at 0", CODE, "double two poles at"),
+            ("pole at", CODE, "pole at"),
             ("-1 (repeated)", "poles.multiplicity", "(repeated)"),
             ("-1 2", "poles.multiplicity", "2"),
             ("-3 -1 +2i", CODE, "-3 -1"),

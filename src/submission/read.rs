@@ -5,6 +5,7 @@ use super::formula::read_transfer_function;
 use super::half_said;
 use super::poles::{MAX_POLES, MOST_POLE_BYTES, ReadPole, parse_poles};
 use super::problem::{Problem, quote, sentence};
+use super::salvage::{Salvaged, salvage};
 use super::series::{parse_series, rows_as_text};
 use super::value::parse_value;
 use super::words::{
@@ -72,10 +73,13 @@ pub fn read(
         }
     };
     let mut submission = submission(text);
-    match parse_with_duplicates(&submission.source.text) {
-        Ok(tree) => {
+    let whole = parse_with_duplicates(&submission.source.text);
+    let parts = if whole.is_err() { salvage(&submission.source.text) } else { None };
+    match parts.map_or_else(|| whole.map(|tree| Salvaged { tree, lost: Vec::new() }), Ok) {
+        Ok(Salvaged { tree, lost }) => {
             let text = std::mem::take(&mut submission.source.text);
             let mut reader = Reader::new(&text, sheet, attachments);
+            reader.lost = lost.into_iter().collect();
             reader.document(&tree, id, &mut submission);
             half_said::complete(sheet, &mut reader.answers, &mut reader.findings.kept);
             submission.answers = reader.answers;
@@ -150,12 +154,15 @@ struct Reader<'a> {
     fields: BTreeMap<String, &'a Field>,
     answers: BTreeMap<String, Answer>,
     findings: Findings,
+    /// Answers that are no YAML, by where their key begins.
+    lost: BTreeMap<usize, Finding>,
 }
 
 impl<'a> Reader<'a> {
     fn new(text: &'a str, sheet: &'a AnswerSheet, attachments: &'a dyn Attachments) -> Self {
         let fields = sheet.fields.iter().map(|field| (plain_key(&field.path), field)).collect();
-        Self { text, sheet, attachments, fields, answers: BTreeMap::new(), findings: Findings::default() }
+        let (answers, findings, lost) = (BTreeMap::new(), Findings::default(), BTreeMap::new());
+        Self { text, sheet, attachments, fields, answers, findings, lost }
     }
 
     fn document(&mut self, tree: &Node, id: &str, submission: &mut Submission) {
@@ -253,6 +260,9 @@ impl<'a> Reader<'a> {
     fn entry(&mut self, above: &str, key: &str, span: Span, node: &Node) {
         let own = plain_key(key);
         let path = if above.is_empty() { own } else { format!("{above}.{own}") };
+        if let Some(finding) = self.lost.remove(&span.start) {
+            return self.lose(&path, span, finding);
+        }
         if let Some(field) = self.fields.get(path.as_str()) {
             return self.field(field, span, node);
         }
@@ -277,6 +287,18 @@ impl<'a> Reader<'a> {
                 );
             }
         }
+    }
+
+    /// An answer, or all beneath its path, that is no YAML.
+    fn lose(&mut self, path: &str, span: Span, finding: Finding) {
+        let own = self.fields.get(path).copied();
+        for field in own.into_iter().chain(self.beneath(path)).collect::<Vec<_>>() {
+            let text = self.text.get(span.start..span.end).unwrap_or_default().to_owned();
+            let value = Err(Unreadable { finding: finding.clone() });
+            let answer = Answer { path: field.path.clone(), span, text, value };
+            self.answers.entry(field.path.clone()).or_insert(answer);
+        }
+        self.findings.push(finding);
     }
 
     fn unknown_key(&mut self, key: &str, span: Span, top: bool) {
@@ -354,7 +376,8 @@ impl<'a> Reader<'a> {
                 let text = &unwrapped(text);
                 let pointed = Pointed::read(text, 0, settled([&**text]))
                     .map_err(|problem| self.place(problem, node))?;
-                let value = parse_value(&pointed.text, field.unit.as_ref())
+                let limit = ["initial_value", "final_value"].iter().any(|end| field.path.ends_with(end));
+                let value = parse_value(&pointed.text, field.unit.as_ref(), limit)
                     .map_err(|problem| self.place(problem, node))?;
                 self.say_commas(&pointed.places(node, self.text));
                 Ok(AnswerValue::Value(value))

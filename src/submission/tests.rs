@@ -484,7 +484,7 @@ fn students_are_read_alone_and_in_groups() {
 fn a_file_that_is_not_yaml_still_names_its_students() {
     for (text, code, expected, lab) in [
         (
-            "lab: tank\nstudent: {id: EE-015, name: N. Pressed}\nanswers:\n  expect: \"open\n  low: [1\n",
+            "lab: tank\nstudent: {id: EE-015, name: N. Pressed}\nanswers: [\n  expect: \"open\n  low: [1\n",
             "file.not_yaml",
             vec![("EE-015", "N. Pressed")],
             Some("tank"),
@@ -496,8 +496,6 @@ fn a_file_that_is_not_yaml_still_names_its_students() {
             None,
         ),
         ("answers: {id: no\n", "file.not_yaml", vec![("stem", "")], None),
-        ("student: {id: x}\nanswers:\n  expect: **bold**\n", "file.not_yaml", vec![("x", "")], None),
-        ("student: {id: x}\nanswers:\n  expect: it is: so\n", "file.not_yaml", vec![("x", "")], None),
         ("student: {id: x}\nanswers: &a\n  <<: *a\n", "file.not_yaml", vec![("x", "")], None),
         ("student: {id: x}\n---\nstudent: {id: y}\n", "file.not_yaml", vec![("x", "")], None),
     ] {
@@ -509,6 +507,27 @@ fn a_file_that_is_not_yaml_still_names_its_students() {
         assert!(submission.findings[0].span.is_some(), "{:?}", submission.findings);
         assert_eq!(submission.findings.len(), 2);
     }
+}
+
+#[test]
+fn an_answer_that_is_not_yaml_costs_only_itself() {
+    for wrong in ["it is: so", "**bold**", "\"open", "[1, 2", "@here", "|\n  a\nb c d"] {
+        let text = format!(
+            "lab: tank\nstudent: {{id: x}}\nanswers:\n  low.response.poles: -1\n  expect: {wrong}\n  low.response.shape: ramp\n"
+        );
+        let submission = submit(&text);
+        assert!(submission.readable && submission.students[0].id == "x", "{text}");
+        let codes = codes(&submission.findings);
+        assert_eq!(codes, ["answer.not_yaml"], "{text}: {:?}", submission.findings);
+        let read = |path: &str| submission.answers.get(path).map(|answer| answer.value.is_ok());
+        let found = ["low.response.poles", "expect", "low.response.shape"].map(read);
+        assert_eq!(found, [Some(true), Some(false), Some(true)], "{text}");
+    }
+    let text = "lab: tank\nanswers:\n  low:\n    response: [a: [1\n  expect: so\n";
+    let submission = submit(text);
+    let lost = submission.answers.values().filter(|answer| answer.value.is_err()).count();
+    assert!(lost > 1 && submission.answers["expect"].value.is_ok(), "{:?}", submission.answers);
+    assert_eq!(submission.findings.iter().filter(|finding| finding.code == "answer.not_yaml").count(), 1);
 }
 
 #[test]

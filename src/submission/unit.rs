@@ -286,6 +286,8 @@ const KNOWN: &[Known] = &[
     known(&["H", "henry", "henries"], [2, 1, -2, -2, 0], (1, 1, 0), "mµ"),
     known(&["C", "coulomb", "coulombs"], [0, 0, 1, 1, 0], (1, 1, 0), "mµ"),
     known(&["K", "kelvin", "kelvins"], [0, 0, 0, 0, 1], (1, 1, 0), "m"),
+    // Of a difference of temperatures.
+    known(&["°C", "ºC", "degC"], [0, 0, 0, 0, 1], (1, 1, 0), ""),
 ];
 
 /// What dimensions measure; the angle says nothing where it is `None`.
@@ -531,6 +533,8 @@ mod tests {
             ("N·m", &["N m", "N·m", "newton metres"]),
             ("rad/(N·s)", &["rad/(N s)", "rad/(N·s)", "rad N^-1 s^-1"]),
             ("kg·m^2/s^2", &["kg m^2/s^2", "kg·m²/s²"]),
+            ("V/°C", &["V/°C", "V/ºC", "V per degC"]),
+            ("°C/kW", &["°C/kW", "degC/kW"]),
         ] {
             for spelling in spellings {
                 let read = unit(spelling);

@@ -135,7 +135,7 @@ fn units_are_converted_and_named() {
         ("step.overshoot", "9.5 %", 100, "right", ""),
         ("step.overshoot", "0.0948", 0, "value.other_unit", "0.0948 is the value as a ratio"),
         ("step.overshoot", "0.0948 %", 0, "value.other_unit", "but % was written"),
-        ("motion.period", "1.57 apples", 0, "unreadable", "not a value we can read"),
+        ("motion.period", "1.57 apples", 0, "unreadable", "`apples` is not a unit"),
         ("motion.period", "unbounded", 0, "value.number_given_unbounded", ""),
     ]);
 }
