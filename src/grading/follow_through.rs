@@ -209,7 +209,9 @@ impl Follower<'_> {
             // An earlier answer that lost nothing is as good as the reference, to its digits.
             let reason = format!("It agrees with {name}, which is right within its digits.");
             let evidence = Evidence { expected: expected(), reason, ..own.evidence.clone() };
-            let provisional = base.provisional || own.provisional;
+            // Rounded poles beside the axis, and a word that is another than that of the right ones: a person has a look.
+            let is_word = matches!(self.criterion.check, Check::Stability { .. });
+            let provisional = base.provisional || own.provisional || is_word;
             return (own.earned > base.earned).then_some(Mark { evidence, provisional, ..own });
         };
         if self.criterion.follow_through.is_zero() || own.verdict == Verdict::Unmarked {

@@ -7,7 +7,8 @@ use super::same_mistake::spare;
 use super::truth::Truth;
 use super::{
     Catalogue, HandMarks, ItemScore, Ledger, Override, QuestionScore, Scorecard, Tally, Verdict, alike,
-    concepts, cover, letters, nonlinearity, plot, poles, shape, stability, tangent, transfer_function, value,
+    concepts, cover, in_doubt, letters, nonlinearity, plot, poles, shape, stability, tangent,
+    transfer_function, value,
 };
 use crate::lab::{Check, Criterion, Curve, LabDefinition, Question, SystemRef};
 use crate::model::LetterDerivation;
@@ -40,6 +41,7 @@ pub(super) fn marks(lab: &LabDefinition, grader: &Grader<'_>, hand: Option<&Hand
     spare(lab, grader, &earned, &mut marks);
     follow(lab, grader, &earned, &mut marks);
     note_conflicts(lab, grader, &mut marks);
+    in_doubt::leave_open(lab, grader, &mut marks);
     marks
 }
 

@@ -18,6 +18,7 @@ mod follow_through_tests;
 mod grade;
 mod guard;
 mod hand_marks;
+mod in_doubt;
 mod ledger;
 mod letters;
 mod likeness;

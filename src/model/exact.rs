@@ -23,7 +23,38 @@ pub(super) enum Purpose {
     Value,
     /// A derivative: sign(0) comes from the kink of |u|, has no value, and vanishes only in a product with 0.
     Slope,
+    /// The same with every value that is rounded moved a little.
+    Moved(Nudge),
 }
+
+/// Which way each rounded value is moved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Nudge {
+    /// Sources whose number has this bit go the other way; 0: all go together.
+    bit: u16,
+    down: bool,
+}
+
+impl Nudge {
+    /// A rounded value may be off by this part of itself: far more than by one rounding, far less than anything meant.
+    const PART: f64 = 1e-9;
+
+    /// All together, and so that every two of 127 sources go against one another at least once; each of them both ways.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let bits = [0].into_iter().chain((0..7).map(|place| 1 << place));
+        bits.flat_map(|bit| [false, true].map(|down| Self { bit, down }))
+    }
+
+    /// What the value from that source is multiplied with; a source is one function, one parameter, one value at rest.
+    pub fn factor(self, source: u16) -> f64 {
+        let down = (source & self.bit != 0) != self.down;
+        if down { 1.0 - Self::PART } else { 1.0 + Self::PART }
+    }
+}
+
+/// The sources of rounded values that are no function: powers with broken exponents, then names in order.
+pub(super) const POWERS: u16 = 40;
+pub(super) const NAMES: u16 = POWERS + 1;
 
 impl Exact {
     pub fn zero() -> Self {
@@ -170,13 +201,23 @@ pub(super) fn evaluate(
             (Err(e), _) | (_, Err(e)) => Err(e),
         },
         NodeKind::Divide(a, b) => of(a)?.over(of(b)?),
-        NodeKind::Power(a, b) => of(a)?.raised_to(of(b)?),
+        NodeKind::Power(a, b) => {
+            let (base, exponent) = (of(a)?, of(b)?);
+            // A whole power of a rounded value moves with it.
+            let is_root = !exponent.as_rational().is_some_and(Rational::is_int);
+            match (base.raised_to(exponent)?, purpose) {
+                (Exact::Approximate(value), Purpose::Moved(nudge)) if is_root => {
+                    approximate(value * nudge.factor(POWERS), "^")
+                }
+                (value, _) => Ok(value),
+            }
+        }
         NodeKind::Call(function, a) => call(*function, of(a)?, purpose),
     }
 }
 
 pub(super) fn call(function: Function, argument: Exact, purpose: Purpose) -> Result<Exact, ModelError> {
-    if function == Function::Sign && purpose == Purpose::Slope && argument.is_zero() {
+    if function == Function::Sign && purpose != Purpose::Value && argument.is_zero() {
         return Err(kink());
     }
     let exact = match &argument {
@@ -191,7 +232,13 @@ pub(super) fn call(function: Function, argument: Exact, purpose: Purpose) -> Res
     match function {
         Function::Abs => Ok(if value < 0.0 { argument.negated() } else { argument }),
         Function::Sign => Ok(Exact::rational(Rational::from(if value < 0.0 { -1 } else { 1 }))),
-        _ => approximate(function.apply(value), function.name()),
+        _ => {
+            let moved = match purpose {
+                Purpose::Moved(nudge) => nudge.factor(function as u16),
+                _ => 1.0,
+            };
+            approximate(function.apply(value) * moved, function.name())
+        }
     }
 }
 

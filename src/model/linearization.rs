@@ -1,5 +1,5 @@
-use super::exact::{Purpose, evaluate};
-use super::{Equilibrium, Model, ModelError, ParameterValues};
+use super::exact::{NAMES, Nudge, Purpose, evaluate};
+use super::{Equilibrium, Exact, Model, ModelError, ParameterValues};
 use crate::algebra::{Matrix, Polynomial, Rational, polynomial_determinant};
 use crate::lti::{StateSpace, TransferFunction};
 use std::collections::BTreeMap;
@@ -36,7 +36,7 @@ pub fn linearize(
     let (input, output) = places(model, input, output)?;
     let parameters = model.derived.values(parameters)?;
     at.balances(model, &parameters)?;
-    let slopes = Slopes::at(model, &parameters, at)?;
+    let slopes = Slopes::at(model, &parameters, at, Purpose::Slope)?;
     let uncancelled = slopes.eliminate(input, output)?;
     let state_space = match slopes.state_space(input, output) {
         Ok(state_space) => Some(state_space),
@@ -69,7 +69,35 @@ pub(super) fn about(
     output: &str,
 ) -> Result<TransferFunction, ModelError> {
     let (input, output) = places(model, input, output)?;
-    Slopes::at(model, parameters, at)?.eliminate(input, output)
+    Slopes::at(model, parameters, at, Purpose::Slope)?.eliminate(input, output)
+}
+
+/// As [`about`], with every rounded value moved a little, those at rest and derived parameters too.
+pub(super) fn moved(
+    model: &Model,
+    parameters: &ParameterValues,
+    at: &Equilibrium,
+    (input, output): (&str, &str),
+    nudge: Nudge,
+) -> Result<TransferFunction, ModelError> {
+    let (input, output) = places(model, input, output)?;
+    let mut source = NAMES;
+    let mut move_all = |values: &ParameterValues| -> ParameterValues {
+        let moved = values.iter().map(|(name, value)| {
+            let value = match value {
+                Exact::Approximate(value) => {
+                    source = source.wrapping_add(1);
+                    Exact::Approximate(value * nudge.factor(source))
+                }
+                known => known.clone(),
+            };
+            (name.clone(), value)
+        });
+        moved.collect()
+    };
+    let parameters = move_all(parameters);
+    let at = Equilibrium { values: move_all(&at.values) };
+    Slopes::at(model, &parameters, &at, Purpose::Moved(nudge))?.eliminate(input, output)
 }
 
 /// Where the input and the output coordinate stand in the model.
@@ -91,13 +119,18 @@ struct Slopes {
 }
 
 impl Slopes {
-    fn at(model: &Model, parameters: &ParameterValues, at: &Equilibrium) -> Result<Self, ModelError> {
+    fn at(
+        model: &Model,
+        parameters: &ParameterValues,
+        at: &Equilibrium,
+        purpose: Purpose,
+    ) -> Result<Self, ModelError> {
         let highest = model.highest_derivatives();
         let mut exact = true;
         let mut slope = |residual: &crate::algebra::Expression, name: &str, primes: u8| {
             let derivative = residual.differentiate(name, primes);
             let lookup = |name: &str, primes: u8| at.lookup(parameters, name, primes);
-            let (value, known) = evaluate(&derivative, &lookup, Purpose::Slope)?.to_rational();
+            let (value, known) = evaluate(&derivative, &lookup, purpose)?.to_rational();
             exact &= known;
             Ok::<_, ModelError>(value)
         };

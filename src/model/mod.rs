@@ -1,6 +1,7 @@
 //! Equations of motion → equilibrium → linearization, exact where the numbers are.
 
 mod compare;
+mod doubt;
 mod equations;
 mod equilibrium;
 mod exact;
@@ -18,6 +19,7 @@ mod static_function;
 mod tangent;
 
 pub use compare::{Comparison, ComparisonRun, ComparisonSample, compare, compare_as_usual};
+pub use doubt::Doubts;
 pub use equations::{Coordinate, Equation, Model, ModelError};
 pub use equilibrium::Equilibrium;
 pub use exact::Exact;

@@ -54,6 +54,13 @@ pub fn missing(lab: &LabDefinition, reference: &Reference) -> Vec<Missing> {
         );
         say("tolerances", found, true);
     }
+    for (system, words) in in_doubt(lab, reference) {
+        let found = format!(
+            "the coefficients of `{system}` are rounded, and {words} cannot be told from them: such answers go to a person. Choose \
+             other values, or some from which the point of rest is a rational number"
+        );
+        say("inconclusive", found, true);
+    }
     let asked: Vec<&str> = lab.sheet.fields.iter().filter_map(|field| field.about.as_deref()).collect();
     let points = lab.models.iter().flat_map(|model| {
         model.operating_points.iter().map(move |point| format!("{}.{}", model.id, point.id))
@@ -112,6 +119,20 @@ pub fn to_paste(lab: &LabDefinition, reference: &Reference) -> Option<String> {
         without_effect.iter().for_each(|change| text.push_str(&format!("    - \"{change}\"\n")));
     }
     (!text.is_empty()).then_some(text)
+}
+
+/// Systems that are asked about whose verdicts rounding leaves open: which they are, in words.
+fn in_doubt(lab: &LabDefinition, reference: &Reference) -> Vec<(SystemRef, String)> {
+    let mut found: Vec<(SystemRef, String)> = Vec::new();
+    for of in lab.questions.iter().flat_map(|question| &question.criteria).filter_map(|c| c.check.system()) {
+        let doubts = reference.operating_point(of).map(|point| point.main().doubts);
+        if let Some(doubts) = doubts.filter(|doubts| doubts.any())
+            && !found.iter().any(|(known, _)| known == of)
+        {
+            found.push((of.clone(), doubts.words()));
+        }
+    }
+    found
 }
 
 /// Systems that are asked about and of which nothing is stated.

@@ -119,7 +119,8 @@ fn model_answer_earns_everything(lab: &LabDefinition, reference: &Reference) -> 
     let card = grade(lab, reference, &Catalogue::default(), &lab.model_answer, None);
     let items = card.questions.iter().flat_map(|q| &q.items);
     // What the model answer leaves out is said with what is missing.
-    let (blank, items): (Vec<&ItemScore>, Vec<_>) = items.partition(|item| item.verdict == Verdict::Blank);
+    let (blank, items): (Vec<&ItemScore>, Vec<_>) =
+        items.partition(|item| item.verdict == Verdict::Blank || item.code == "inconclusive");
     let spans: BTreeMap<&str, _> =
         lab.questions.iter().flat_map(|q| &q.criteria).map(|c| (c.id.as_str(), c.span)).collect();
     let lost: Vec<Check> = items
@@ -142,7 +143,9 @@ fn model_answer_earns_everything(lab: &LabDefinition, reference: &Reference) -> 
     let (earned, possible) = (card.total.earned, card.total.possible);
     let found = match blank.len() {
         0 => format!("earns {earned} of {possible}, so each of the {} criteria can be reached", items.len()),
-        n => format!("earns {earned} of {possible}, and leaves {n} criteria worth {left_out} unanswered"),
+        n => format!(
+            "earns {earned} of {possible}, and leaves {n} criteria worth {left_out} unanswered or to a person"
+        ),
     };
     vec![Check { what: "model answer".to_owned(), found, holds: earned + left_out == possible, span: None }]
 }

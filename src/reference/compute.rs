@@ -4,8 +4,8 @@ use crate::algebra::{Rational, from_f64};
 use crate::lab::{LabDefinition, ModelDefinition, OperatingPointDefinition, SimulationDefinition, SystemRef};
 use crate::lti::{InputKind, ResponseError, RootError, roots, stability};
 use crate::model::{
-    Exact, LetterDerivation, LettersError, ModelError, StaticFunction, Tangent, compare, compare_as_usual,
-    linearize,
+    Doubts, Exact, LetterDerivation, LettersError, ModelError, StaticFunction, Tangent, compare,
+    compare_as_usual, linearize,
 };
 use crate::nonlinear::{ChainError, Run, simulate, without_nonlinearities};
 use crate::source::Finding;
@@ -254,6 +254,13 @@ fn linear_reference(
         stability: stability(&g.den),
         internal_poles: roots(&characteristic).map_err(root_error)?,
         internal_stability: stability(&characteristic),
+        doubts: Doubts::of(
+            &linearization,
+            &definition.model,
+            &parameters,
+            &at,
+            (&point.input, &point.output),
+        ),
         impulse: response(InputKind::Impulse)?,
         step: response(InputKind::Step)?,
         values: parameters

@@ -63,6 +63,8 @@ struct OperatingPointView<'a> {
     zeros: Vec<PoleView>,
     stability: &'static str,
     internal_stability: &'static str,
+    /// What the rounding of coefficients leaves open, in words; null when nothing is.
+    inconclusive: Option<String>,
     internal_poles: Vec<PoleView>,
     /// Null of an improper transfer function.
     impulse: Option<ResponseView<'a>>,
@@ -181,6 +183,7 @@ fn operating_point_view(point: &OperatingPointReference) -> OperatingPointView<'
         zeros: pole_views(&main.zeros),
         stability: main.stability.as_str(),
         internal_stability: main.internal_stability.as_str(),
+        inconclusive: main.doubts.any().then(|| main.doubts.words()),
         internal_poles: pole_views(&main.internal_poles),
         impulse: main.impulse.as_ref().map(response_view),
         step: main.step.as_ref().map(response_view),

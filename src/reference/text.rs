@@ -90,6 +90,9 @@ fn operating_point(text: &mut String, model: &str, point: &OperatingPointReferen
             roots_text(&main.internal_poles)
         ),
     );
+    if main.doubts.any() {
+        line(text, format_args!("  inconclusive, since coefficients are rounded: {}", main.doubts.words()));
+    }
     response(text, "impulse response", main.impulse.as_ref());
     response(text, "step response", main.step.as_ref());
     if let Some(comparison) = &point.comparison

@@ -1,7 +1,7 @@
 use super::ResponseReference;
 use crate::algebra::Rational;
 use crate::lti::{InputKind, Pole, Stability};
-use crate::model::{ComparisonRun, LetterDerivation, LettersError, Linearization, Tangent};
+use crate::model::{ComparisonRun, Doubts, LetterDerivation, LettersError, Linearization, Tangent};
 use crate::nonlinear::Run;
 use std::collections::BTreeMap;
 
@@ -62,6 +62,8 @@ pub struct LinearReference {
     /// Eigenvalues of the whole state.
     pub internal_poles: Vec<Pole>,
     pub internal_stability: Stability,
+    /// What of this the rounding of coefficients leaves open.
+    pub doubts: Doubts,
     /// `None` of an improper transfer function, which has no ordinary responses.
     pub impulse: Option<ResponseReference>,
     /// Parameters, and coordinates and inputs at rest, by name; an irrational one is its nearest `f64`.

@@ -62,7 +62,7 @@ struct PointView {
     anchor: String,
     title: String,
     equilibrium_html: Vec<String>,
-    exactness: &'static str,
+    exactness: String,
     /// There was nothing to linearize.
     given_linear: bool,
     linear_html: Vec<String>,
@@ -230,11 +230,7 @@ fn point(
             .iter()
             .map(|(name, text)| format!("{} = {}", math::symbol(name), typed_value(text)))
             .collect(),
-        exactness: if linearization.exact {
-            "Every coefficient below was computed exactly, in rationals, and is shown rounded."
-        } else {
-            "The equilibrium is not a rational number, so coefficients were computed in double precision."
-        },
+        exactness: exactness(main),
         given_linear: definition.linear.is_some(),
         linear_html: linearization.linear_equations.iter().map(|e| math::linear_equation(e)).collect(),
         derivation: DerivationView::of(&point.letters, definition.model.is_printed()),
@@ -378,6 +374,19 @@ fn feature_rows(impulse: &Features, step: &Features, unit: &str) -> Vec<FeatureR
         row("Rise time, 10 to 90\u{a0}%", &|f| optional(f.rise_time_10_90_s, "s")),
     ];
     rows.into_iter().filter(|r| r.impulse != "–" || r.step != "–").collect()
+}
+
+/// How far the numbers of a key may be trusted.
+fn exactness(main: &LinearReference) -> String {
+    if main.linearization.exact {
+        return "Every coefficient below was computed exactly, in rationals, and is shown rounded."
+            .to_owned();
+    }
+    let rounded = "Where the system rests, or a parameter, is not a rational number, so coefficients were computed in double precision.";
+    match main.doubts.any() {
+        true => format!("{rounded} From these cannot be told: {}.", main.doubts.words()),
+        false => rounded.to_owned(),
+    }
 }
 
 fn alternative(linear: &LinearReference) -> AlternativeView {
