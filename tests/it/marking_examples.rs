@@ -43,8 +43,11 @@ const WITHOUT_EXAMPLE: &[(&str, &str)] =
     &[("What a person gives", "marks files have tests of their own"), ("All codes", "a list")];
 
 /// Codes no example can show.
-const WITHOUT_EXAMPLE_CODE: &[(&str, &str)] =
-    &[("unmarked", "of what polemark itself fails on"), ("by_hand", "from the marks file")];
+const WITHOUT_EXAMPLE_CODE: &[(&str, &str)] = &[
+    ("unmarked", "of what polemark itself fails on"),
+    ("by_hand", "from the marks file"),
+    ("inconclusive", "of a lab that rests on rounded coefficients at such a line"),
+];
 
 /// What an example says of one criterion.
 #[derive(Debug, Default)]
