@@ -1,18 +1,59 @@
+use super::fingerprint::{Fingerprint, fingerprint};
 use super::intake::AnswerFile;
+use super::kept::{Entry, EntryPart, Kept, report_is_there};
 use super::marked::{Marked, our_failure, unreadable_submission};
 use super::new_file::NewFile;
 use super::numbers::{Bench, Benches, Numbers, WithoutNumbers, numbers};
+use super::record::Record;
 use super::run::{ClassError, ClassJob, read_capped};
 use crate::grading::{
-    Catalogue, HandMarks, MemberCard, Scorecard, grade, grade_beside_members, grade_without_numbers,
-    leave_to_a_person,
+    Catalogue, HandMarks, HandMarksFile, MemberCard, Scorecard, grade, grade_beside_members,
+    grade_without_numbers, leave_to_a_person,
 };
 use crate::source::{Finding, Severity, sanitize};
-use crate::submission::{AnswerSheet, Folder, Student, Submission, read};
+use crate::submission::{AnswerSheet, AttachmentError, Attachments, Folder, Student, Submission, read};
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// One report's worth of an answer file, before it has a name: group members who were given different marks by hand (a viva
+/// each, say) are marked and reported one by one.
+pub struct Part {
+    /// What it is called where no student is known.
+    pub id: String,
+    pub students: Vec<Student>,
+    pub found: Found,
+    pub source: Arc<SourceFile>,
+    /// Its place among the parts of the file.
+    pub number: usize,
+}
+
+/// Whether there is work to do.
+pub enum Found {
+    /// An earlier run marked it, and nothing has changed that its marks rest on.
+    Kept {
+        part: EntryPart,
+        record: Box<Record>,
+        line: String,
+    },
+    Read {
+        submission: Box<Submission>,
+        numbers: Numbers,
+    },
+}
+
+/// What is known of an answer file, all its parts together.
+pub struct SourceFile {
+    /// Place among the files of the job.
+    pub place: usize,
+    pub key: String,
+    pub attachments: Vec<(String, String)>,
+    pub students: Vec<String>,
+    pub marks: String,
+}
 
 /// A submission, by whose numbers it is marked, and where its report goes.
 pub struct Named {
@@ -26,34 +67,137 @@ pub struct Desk<'a> {
     pub job: &'a ClassJob<'a>,
     pub benches: Benches<'a>,
     pub without: WithoutNumbers,
+    /// What earlier runs marked.
+    pub kept: Kept,
+    /// What every mark of this run rests on; `None` when nothing is to be used again.
+    pub run: Option<Fingerprint>,
+    /// Where files grow.
+    pub growing: PathBuf,
 }
 
 impl Desk<'_> {
+    /// The parts of an answer file, as an earlier run left them, or read.
+    pub fn look(&self, place: usize) -> Vec<Part> {
+        let Some(file) = self.job.files.get(place) else { return Vec::new() };
+        let content = Content::of(file);
+        let key = self.key(file, &content);
+        self.kept_parts(place, file, &key).unwrap_or_else(|| self.read_parts(place, file, &content, key))
+    }
+
+    /// The same part read, whatever was kept of it: another file of the class has changed what is said of it.
+    pub fn look_again(&self, part: &Part) -> Option<Part> {
+        let file = self.job.files.get(part.source.place)?;
+        let parts = self.read_parts(part.source.place, file, &Content::of(file), part.source.key.clone());
+        parts.into_iter().nth(part.number)
+    }
+
+    fn key(&self, file: &AnswerFile, content: &Content) -> String {
+        let Some(run) = &self.run else { return String::new() };
+        let run = run.clone().with(&file.name).with(&file.id).with([u8::from(file.followed)]);
+        match content {
+            Content::Bytes(bytes) => run.with(bytes),
+            Content::NotOpened(error) => run.with("not opened").with(error.to_string()),
+            Content::Link => run.with("a link"),
+        }
+        .hex()
+    }
+
+    fn kept_parts(&self, place: usize, file: &AnswerFile, key: &str) -> Option<Vec<Part>> {
+        self.run.as_ref()?;
+        let (entry, records) = self.kept.entry(&file.name)?;
+        let folder = attachments_of(file);
+        let same = |(name, found): &(String, String)| *found == outcome(&folder.read(name));
+        if entry.key != key
+            || entry.marks != self.marks(entry.students.iter().map(String::as_str))
+            || !entry.attachments.iter().all(same)
+        {
+            return None;
+        }
+        let Entry { attachments, students, marks, parts, .. } = entry;
+        let source = Arc::new(SourceFile { place, key: key.to_owned(), attachments, students, marks });
+        let parts = parts.into_iter().enumerate().map(|(number, part)| {
+            let (record, line) = records.record(&part)?;
+            let there = report_is_there(self.job.out, &part);
+            let students = record.students.iter();
+            let students =
+                students.map(|one| Student { id: one.id.clone(), name: one.name.clone() }).collect();
+            there.then(|| Part {
+                id: record.submission.clone(),
+                students,
+                found: Found::Kept { part, record: Box::new(record), line },
+                source: Arc::clone(&source),
+                number,
+            })
+        });
+        parts.collect()
+    }
+
+    fn read_parts(&self, place: usize, file: &AnswerFile, content: &Content, key: String) -> Vec<Part> {
+        let noted = Noted { inside: attachments_of(file), asked: Mutex::default() };
+        let (submission, numbers) = self.read(file, content, &noted);
+        let asked = noted.asked.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let students: Vec<String> = submission.students.iter().map(|student| student.id.clone()).collect();
+        let source = Arc::new(SourceFile {
+            place,
+            key,
+            attachments: asked.into_iter().collect(),
+            marks: self.marks(students.iter().map(String::as_str)),
+            students,
+        });
+        let alone = by_hand_marks(submission, self.job.marks);
+        let parts = alone.into_iter().enumerate().map(|(number, submission)| Part {
+            id: submission.id.clone(),
+            students: submission.students.clone(),
+            found: Found::Read { submission: Box::new(submission), numbers: numbers.clone() },
+            source: Arc::clone(&source),
+            number,
+        });
+        parts.collect()
+    }
+
+    /// Fingerprint of what a person gave these students, decisions for groups of like answers aside.
+    fn marks<'s>(&self, students: impl Iterator<Item = &'s str>) -> String {
+        let Some(file) = self.job.marks else { return String::new() };
+        let given = students.map(|id| file.marks_for(id));
+        given
+            .fold(Fingerprint::default(), |all, marks| {
+                all.with_shown(&marks.cover).with_shown(&marks.observed).with_shown(&marks.items)
+            })
+            .hex()
+    }
+
     /// Reads an answer file with the values that its student has in place of letters.
-    pub fn read(&self, file: &AnswerFile) -> (Submission, Numbers) {
+    fn read(
+        &self,
+        file: &AnswerFile,
+        content: &Content,
+        attachments: &dyn Attachments,
+    ) -> (Submission, Numbers) {
         let lab = self.job.lab;
-        let mut submission = read_submission(file, &lab.sheet);
+        let mut submission = read_submission(file, content, &lab.sheet, attachments);
         let mut own = numbers(lab, &mut submission, self.job.roster);
         let theirs = own.variant().map(|variant| self.benches.lab(variant));
         // That a lab does not work with somebody's values is told by marking.
         if let Some(Ok(theirs)) = theirs.as_deref() {
-            submission = read_submission(file, &theirs.sheet);
+            submission = read_submission(file, content, &theirs.sheet, attachments);
             own = numbers(lab, &mut submission, self.job.roster);
         }
         (submission, own)
     }
 
     /// In the order given. Submissions with the same numbers are marked one after another, so that what these need is at hand.
-    pub fn mark_all(&self, named: Vec<Named>) -> Result<Vec<Marked>, ClassError> {
+    ///
+    /// With each its fingerprint of the report.
+    pub fn mark_all(&self, named: Vec<Named>) -> Result<Vec<(Marked, String)>, ClassError> {
         let mut numbered: Vec<(usize, Named)> = named.into_iter().enumerate().collect();
         numbered.sort_by(|(_, one), (_, two)| one.numbers.cmp(&two.numbers));
         let marked = numbered.into_par_iter().map(|(place, named)| Ok((place, self.mark_and_write(named)?)));
-        let mut marked: Vec<(usize, Marked)> = marked.collect::<Result<_, ClassError>>()?;
+        let mut marked: Vec<(usize, (Marked, String))> = marked.collect::<Result<_, ClassError>>()?;
         marked.sort_by_key(|(place, _)| *place);
         Ok(marked.into_iter().map(|(_, marked)| marked).collect())
     }
 
-    fn mark_and_write(&self, named: Named) -> Result<Marked, ClassError> {
+    fn mark_and_write(&self, named: Named) -> Result<(Marked, String), ClassError> {
         let Named { mut submission, numbers, report } = named;
         let job = self.job;
         // Members of a group that are still together were given the same.
@@ -93,8 +237,8 @@ impl Desk<'_> {
                     .to_owned()
             }
         };
-        NewFile::create(job.out.join(&report))?.write_all(page.as_bytes())?;
-        Ok(Marked {
+        NewFile::create(job.out.join(&report), &self.growing)?.write_all(page.as_bytes())?;
+        let marked = Marked {
             parameters: numbers.values(job.lab),
             variant: numbers.variant().cloned(),
             other_variants: Vec::new(),
@@ -102,7 +246,8 @@ impl Desk<'_> {
             scorecard,
             report,
             failed,
-        })
+        };
+        Ok((marked, fingerprint(page)))
     }
 
     /// Errors: what does not work with these numbers.
@@ -153,24 +298,81 @@ fn does_not_work(why: &str) -> Finding {
     }
 }
 
-fn read_submission(file: &AnswerFile, sheet: &AnswerSheet) -> Submission {
-    let read = || match read_capped(&file.path) {
-        Ok(bytes) => {
-            let folder = Folder(file.path.parent().unwrap_or(Path::new("")).to_path_buf());
-            read(&file.id, &file.name, &bytes, sheet, &folder)
+/// What an answer file holds.
+enum Content {
+    Bytes(Vec<u8>),
+    NotOpened(io::Error),
+    /// To another file, which is not followed.
+    Link,
+}
+
+impl Content {
+    fn of(file: &AnswerFile) -> Self {
+        if file.path.is_symlink() && !file.followed {
+            return Self::Link;
         }
-        Err(error) => unreadable_submission(&file.id, &file.name, not_opened(&error)),
-    };
-    let mut submission = if file.path.is_symlink() && !file.followed {
-        unreadable_submission(&file.id, &file.name, is_a_link())
-    } else {
-        catch_unwind(AssertUnwindSafe(read))
-            .unwrap_or_else(|_| unreadable_submission(&file.id, &file.name, our_failure()))
+        read_capped(&file.path).map_or_else(Self::NotOpened, Self::Bytes)
+    }
+}
+
+/// The files beside an answer file.
+fn attachments_of(file: &AnswerFile) -> Folder {
+    Folder(file.path.parent().unwrap_or(Path::new("")).to_path_buf())
+}
+
+/// Remembers what was asked for, and what came of it.
+struct Noted<A> {
+    inside: A,
+    asked: Mutex<BTreeMap<String, String>>,
+}
+
+impl<A: Attachments> Attachments for Noted<A> {
+    fn read(&self, file_name: &str) -> Result<Vec<u8>, AttachmentError> {
+        let found = self.inside.read(file_name);
+        let mut asked = self.asked.lock().unwrap_or_else(PoisonError::into_inner);
+        asked.insert(file_name.to_owned(), outcome(&found));
+        found
+    }
+}
+
+/// Fingerprint of what came of reading a file.
+fn outcome(found: &Result<Vec<u8>, AttachmentError>) -> String {
+    match found {
+        Ok(bytes) => fingerprint(bytes),
+        Err(error) => error.to_string(),
+    }
+}
+
+fn read_submission(
+    file: &AnswerFile,
+    content: &Content,
+    sheet: &AnswerSheet,
+    attachments: &dyn Attachments,
+) -> Submission {
+    let mut submission = match content {
+        Content::Bytes(bytes) => {
+            let read = || read(&file.id, &file.name, bytes, sheet, attachments);
+            catch_unwind(AssertUnwindSafe(read))
+                .unwrap_or_else(|_| unreadable_submission(&file.id, &file.name, our_failure()))
+        }
+        Content::NotOpened(error) => unreadable_submission(&file.id, &file.name, not_opened(error)),
+        Content::Link => unreadable_submission(&file.id, &file.name, is_a_link()),
     };
     if submission.students.is_empty() {
         submission.students.push(Student { id: file.id.clone(), name: String::new() });
     }
     submission
+}
+
+/// Group members who were given different marks by hand, each alone.
+fn by_hand_marks(submission: Submission, marks: Option<&HandMarksFile>) -> Vec<Submission> {
+    let given = |student: &Student| marks.map(|file| file.marks_for(&student.id));
+    let alike = submission.students.windows(2).all(|pair| given(&pair[0]) == given(&pair[1]));
+    if alike {
+        return vec![submission];
+    }
+    let alone = |student: &Student| Submission { students: vec![student.clone()], ..submission.clone() };
+    submission.students.iter().map(alone).collect()
 }
 
 fn is_a_link() -> Finding {

@@ -1,9 +1,11 @@
 //! Many submissions: intake, in parallel, gradebook, statistics. Judges nothing.
 
 mod desk;
+mod fingerprint;
 mod gradebook;
 mod handouts;
 mod intake;
+mod kept;
 mod marked;
 mod new_file;
 mod numbers;
@@ -12,8 +14,10 @@ mod outcome;
 mod record;
 mod roster;
 mod run;
+mod run_records;
 mod statistics;
 mod students_seen;
+mod workplace;
 
 pub use handouts::{HandoutError, Handouts, write_handouts};
 pub use intake::{AnswerFile, IntakeError, find_answer_files};
@@ -23,4 +27,5 @@ pub use others::OtherVariant;
 pub use outcome::Outcome;
 pub use record::Record;
 pub use roster::{Roster, RosterError, RosterStudent};
-pub use run::{ClassError, ClassJob, grade_class, read_capped};
+pub use run::{ClassError, ClassJob, Progress, grade_class, read_capped};
+pub use workplace::is_unfinished;

@@ -9,10 +9,10 @@ pub struct NewFile {
 }
 
 impl NewFile {
-    pub fn create(path: PathBuf) -> Result<Self, ClassError> {
-        let folder = path.parent().unwrap_or(Path::new("."));
+    /// Grows in `folder`, which is of the same file system, and is to become `path`.
+    pub fn create(path: PathBuf, folder: &Path) -> Result<Self, ClassError> {
         let mut builder = tempfile::Builder::new();
-        builder.prefix(".polemark-");
+        builder.prefix("new-");
         // Others may read it, as with any file one writes.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));

@@ -67,6 +67,11 @@ impl Others {
         Self { ids, right: None }
     }
 
+    /// Who has which numbers, as text.
+    pub fn fingerprint(&self) -> String {
+        format!("{:?}", self.ids)
+    }
+
     /// Finds for each submission whose numbers its wrong answers are right for.
     pub fn point_out(&mut self, job: &ClassJob<'_>, marked: &mut [Marked]) {
         let Some(rule) = &job.lab.variants else { return };

@@ -4,6 +4,10 @@ use crate::source::Finding;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outcome {
     pub submissions: usize,
+    /// Submissions of which nothing had changed since an earlier run.
+    pub kept: usize,
+    /// The run was stopped before the end; nothing else here is of the whole class then.
+    pub stopped: bool,
     pub unreadable: usize,
     /// Submissions that polemark itself failed on.
     pub failed: usize,
@@ -17,6 +21,8 @@ pub struct Outcome {
     pub decisions_without_answers: Vec<Finding>,
     /// (id, files) of student ids that more than one file gives.
     pub ids_given_twice: Vec<(String, Vec<String>)>,
-    /// Reports of an earlier run that still lie in the folder.
+    /// Reports that polemark had written of answers that are not there any more.
+    pub removed_reports: usize,
+    /// Other reports of an earlier run that still lie in the folder.
     pub older_reports: usize,
 }

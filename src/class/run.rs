@@ -1,22 +1,29 @@
 use super::Roster;
-use super::desk::{Desk, Named};
+use super::desk::{Desk, Found, Named, Part, SourceFile};
+use super::fingerprint::Fingerprint;
 use super::gradebook::Gradebook;
 use super::intake::{AnswerFile, UniqueNames};
+use super::kept::{Kept, is_as_it_was, run_fingerprint};
+use super::marked::Marked;
 use super::new_file::NewFile;
-use super::numbers::{Benches, Numbers, WithoutNumbers};
+use super::numbers::{Benches, WithoutNumbers};
 use super::others::Others;
 use super::outcome::Outcome;
 use super::record::Record;
+use super::run_records::{RunRecords, Written};
 use super::statistics::Statistics;
 use super::students_seen::StudentsSeen;
+use super::workplace::Workplace;
 use crate::grading::{Catalogue, HandMarksFile};
 use crate::lab::LabDefinition;
 use crate::reference::Reference;
 use crate::report::{ReportError, ReportKit};
-use crate::submission::{Student, Submission};
+use crate::source::Finding;
 use rayon::prelude::*;
-use std::io::{self, BufWriter, Read, Write};
+use std::io::{self, Read};
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Submissions in memory at a time; results are written in order after each such group.
 const GROUP: usize = 64;
@@ -38,12 +45,25 @@ pub struct ClassJob<'a> {
     pub out: &'a Path,
     /// Worker threads; 0 is one a core.
     pub threads: usize,
+    /// Marks everything again, whatever earlier runs left.
+    pub from_scratch: bool,
+}
+
+/// How far a run is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// Answer files dealt with.
+    pub done: usize,
+    /// Submissions of which nothing had changed since an earlier run.
+    pub kept: usize,
 }
 
 #[derive(Debug, thiserror::Error)]
 pub enum ClassError {
     #[error("`{}` cannot be written: {error}", path.display())]
     Write { path: PathBuf, error: io::Error },
+    #[error("another polemark is writing into `{}`; wait until it has finished", out.display())]
+    Busy { out: PathBuf },
     #[error("the gradebook cannot be written: {0}")]
     Gradebook(#[from] csv::Error),
     #[error("a result cannot be written as JSON: {0}")]
@@ -68,78 +88,162 @@ pub fn read_capped(path: &Path) -> io::Result<Vec<u8>> {
 
 /// Marks every file and writes `index.html`, `reports/…`, `gradebook.csv`, `results.jsonl` into `job.out`.
 ///
-/// A bad file never stops the class: it gets a report and a row like any other. Files appear whole or not at all.
-/// `progress` is told after each group how many submissions are done.
-pub fn grade_class(job: &ClassJob<'_>, progress: &dyn Fn(usize)) -> Result<Outcome, ClassError> {
+/// A bad file never stops the class: it gets a report and a row like any other. Files appear whole or not at all. What an
+/// earlier run in the same folder marked is not marked again where nothing has changed that it rests on; the files come out
+/// as if it were. `progress` is told after each group how far it is; when it says stop, what is done is kept for the next run,
+/// and class page, gradebook and results stay those of the last run that finished.
+pub fn grade_class(
+    job: &ClassJob<'_>,
+    progress: &dyn Fn(Progress) -> ControlFlow<()>,
+) -> Result<Outcome, ClassError> {
     let reports = job.out.join("reports");
     std::fs::create_dir_all(&reports).map_err(|error| ClassError::Write { path: reports, error })?;
+    let workplace = Workplace::open(job.out)?;
     // More threads than submissions marked at a time would only wait.
     let threads = job.threads.min(GROUP);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK_BYTES).build()?;
 
-    let results = NewFile::create(job.out.join("results.jsonl"))?;
-    let mut lines = BufWriter::new(results.file.as_file());
-    let gradebook_file = NewFile::create(job.out.join("gradebook.csv"))?;
+    let mut records = RunRecords::create(job, &workplace)?;
+    let gradebook_file = NewFile::create(job.out.join("gradebook.csv"), &workplace.running())?;
     let mut gradebook = Gradebook::new(gradebook_file.file.as_file(), job.lab)?;
     let mut statistics = Statistics::new(job.lab);
     let mut names = UniqueNames::default();
     let mut seen = StudentsSeen::default();
+    let mut others = pool.install(|| Others::new(job));
     let desk = Desk {
         job,
         benches: Benches::new(job.lab, job.reference, job.kit),
         without: WithoutNumbers::new(job.lab, job.reference, job.kit)?,
+        kept: if job.from_scratch { Kept::nothing() } else { Kept::open(job.out, &workplace) },
+        run: rests_on(job, &others),
+        growing: workplace.running(),
     };
-    let mut others = pool.install(|| Others::new(job));
-    let mut done = 0;
+    let mut done = Progress { done: 0, kept: 0 };
 
-    for group in job.files.chunks(GROUP) {
-        let submissions: Vec<(Submission, Numbers)> = pool.install(|| {
-            group
-                .par_iter()
-                .map(|file| desk.read(file))
-                .flat_map_iter(|(submission, numbers)| {
-                    let alone = by_hand_marks(submission, job.marks);
-                    alone.into_iter().map(move |one| (one, numbers.clone()))
-                })
-                .collect()
-        });
-        // Names depend on who came before, so they are given in order.
-        let named: Vec<Named> = submissions
-            .into_iter()
-            .map(|(mut submission, numbers)| {
-                seen.add(&mut submission);
-                let name = names.claim(&report_stem(&submission));
-                Named { submission, numbers, report: format!("reports/{name}.html") }
-            })
-            .collect();
-        let mut marked = pool.install(|| desk.mark_all(named))?;
-        pool.install(|| others.point_out(job, &mut marked));
-        for marked in &marked {
-            let record = Record::of(marked, job.lab);
-            writeln!(lines, "{}", record.to_line()?)
-                .map_err(|error| ClassError::Write { path: results.path.clone(), error })?;
-            gradebook.add(&record)?;
-            statistics.add(&record);
+    for first in (0..job.files.len()).step_by(GROUP) {
+        let group = first..job.files.len().min(first + GROUP);
+        let parts: Vec<Part> =
+            pool.install(|| group.clone().into_par_iter().flat_map_iter(|place| desk.look(place)).collect());
+        let mut to_mark = Vec::new();
+        let mut slips = Vec::new();
+        // Names and what is said of one beside others depend on who came before, so they are given in order.
+        for part in parts {
+            let file = job.files.get(part.source.place).map_or("", |file| file.name.as_str());
+            let findings = seen.add(&part.students, file);
+            let report = format!("reports/{}.html", names.claim(&report_stem(&part)));
+            slips.push(settle(&desk, part, findings, report, &mut to_mark));
         }
-        done += group.len();
-        progress(done);
+        let (mut marked, pages): (Vec<Marked>, Vec<String>) =
+            pool.install(|| desk.mark_all(to_mark))?.into_iter().unzip();
+        pool.install(|| others.point_out(job, &mut marked));
+        let mut fresh = marked.iter().zip(pages);
+        for slip in slips {
+            let written = match slip.kept {
+                Some(kept) => kept,
+                None => {
+                    let Some((marked, page)) = fresh.next() else { continue };
+                    let record = Record::of(marked, job.lab);
+                    Written { line: record.to_line()?, record, page, kept: false }
+                }
+            };
+            records.add(&slip.source, slip.said, &written)?;
+            gradebook.add(&written.record)?;
+            statistics.add(&written.record);
+        }
+        records.flush()?;
+        done.done += group.len();
+        done.kept = records.kept();
+        if progress(done).is_break() {
+            return Ok(Outcome { stopped: true, ..statistics.outcome() });
+        }
     }
 
-    lines.flush().map_err(|error| ClassError::Write { path: results.path.clone(), error })?;
-    drop(lines);
-    results.finish()?;
     gradebook.finish().map_err(|error| ClassError::Write { path: gradebook_file.path.clone(), error })?;
-    gradebook_file.finish()?;
     let mut outcome = statistics.outcome();
+    outcome.kept = records.kept();
     outcome.ids_given_twice = seen.given_twice();
-    outcome.older_reports = older_reports(job.out, &statistics);
     if let Some(marks) = job.marks {
         outcome.marks_without_submission = statistics.absent(marks.student_ids());
         outcome.decisions_without_answers = marks.decisions_without_answers(statistics.groups());
     }
-    let index = NewFile::create(job.out.join("index.html"))?;
+    outcome.removed_reports = remove_old_reports(job.out, &desk.kept, &statistics);
+    outcome.older_reports = older_reports(job.out, &statistics);
+    let index = NewFile::create(job.out.join("index.html"), &workplace.running())?;
+    records.publish(&workplace)?;
+    gradebook_file.finish()?;
     index.write_all(job.kit.class_page(&statistics.summary(job.lab)).as_bytes())?;
+    workplace.finish()?;
     Ok(outcome)
+}
+/// Who it is from, as far as could be read; the file's name otherwise.
+fn report_stem(part: &Part) -> String {
+    let ids: Vec<&str> = part.students.iter().map(|s| s.id.as_str()).filter(|id| !id.is_empty()).collect();
+    if ids.is_empty() { part.id.clone() } else { ids.join("_") }
+}
+
+/// What is to be written of one part.
+struct Slip {
+    source: Arc<SourceFile>,
+    /// Fingerprint of what was said because of other files.
+    said: String,
+    /// What an earlier run wrote, where that holds; else it is the next one that is marked.
+    kept: Option<Written>,
+}
+
+/// Uses again what was kept, if this class says the same of it; else it is to be marked.
+fn settle(
+    desk: &Desk<'_>,
+    part: Part,
+    findings: Vec<Finding>,
+    report: String,
+    to_mark: &mut Vec<Named>,
+) -> Slip {
+    let said = Fingerprint::default().with_shown(&findings).hex();
+    let source = Arc::clone(&part.source);
+    let holds = match &part.found {
+        Found::Kept { part, .. } => part.said == said && part.report == report,
+        Found::Read { .. } => false,
+    };
+    let again = match part.found {
+        Found::Kept { .. } if !holds => desk.look_again(&part).map(|part| part.found),
+        _ => None,
+    };
+    match again.unwrap_or(part.found) {
+        Found::Kept { part, record, line } => {
+            let written = Written { record: *record, line, page: part.page, kept: true };
+            Slip { source, said, kept: Some(written) }
+        }
+        Found::Read { mut submission, numbers } => {
+            submission.findings.extend(findings);
+            to_mark.push(Named { submission: *submission, numbers, report });
+            Slip { source, said, kept: None }
+        }
+    }
+}
+
+/// What the marks of all submissions rest on; `None` when nothing may be used again.
+fn rests_on(job: &ClassJob<'_>, others: &Others) -> Option<Fingerprint> {
+    let lab = &job.lab.text;
+    let alike = job.marks.map(|marks| format!("{:?}", marks.marks_for("").alike));
+    let roster = format!("{:?}", job.roster);
+    let class = others.fingerprint();
+    run_fingerprint(&[&lab.name, &lab.text, &alike.unwrap_or_default(), &roster, &class])
+}
+
+/// Removes reports of answers that are not there any more, if they are as polemark wrote them.
+///
+/// How many.
+fn remove_old_reports(out: &Path, kept: &Kept, statistics: &Statistics) -> usize {
+    let removed = kept.reports().filter(|(report, page)| {
+        let plain = report.strip_prefix("reports/").is_some_and(|name| !name.contains(['/', '\\']));
+        let path = out.join(report);
+        plain
+            && !statistics.has_report(report)
+            && is_as_it_was(&path, page)
+            // One that cannot be removed is counted as an older report.
+            && std::fs::remove_file(path).is_ok()
+    });
+    removed.count()
 }
 
 /// Reports in the folder that this run did not write: of an earlier run, so possibly out of date.
@@ -147,22 +251,4 @@ fn older_reports(out: &Path, statistics: &Statistics) -> usize {
     let Ok(entries) = std::fs::read_dir(out.join("reports")) else { return 0 };
     let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
     names.filter(|name| name.ends_with(".html") && !statistics.has_report(&format!("reports/{name}"))).count()
-}
-
-/// Group members who were given different marks by hand (a viva each, say) are marked and reported one by one.
-fn by_hand_marks(submission: Submission, marks: Option<&HandMarksFile>) -> Vec<Submission> {
-    let given = |student: &Student| marks.map(|file| file.marks_for(&student.id));
-    let alike = submission.students.windows(2).all(|pair| given(&pair[0]) == given(&pair[1]));
-    if alike {
-        return vec![submission];
-    }
-    let alone = |student: &Student| Submission { students: vec![student.clone()], ..submission.clone() };
-    submission.students.iter().map(alone).collect()
-}
-
-/// Who it is from, as far as could be read; the file's name otherwise.
-fn report_stem(submission: &Submission) -> String {
-    let ids: Vec<&str> =
-        submission.students.iter().map(|s| s.id.as_str()).filter(|id| !id.is_empty()).collect();
-    if ids.is_empty() { submission.id.clone() } else { ids.join("_") }
 }

@@ -1,5 +1,5 @@
 use crate::source::{Finding, Severity, sanitize};
-use crate::submission::Submission;
+use crate::submission::Student;
 use std::collections::BTreeMap;
 
 /// Which student ids have come up, and in which files: two files under one id are for a person to sort out.
@@ -9,12 +9,13 @@ pub struct StudentsSeen {
 }
 
 impl StudentsSeen {
-    /// Notes who `submission` is from; an id that was there before becomes a finding.
-    pub fn add(&mut self, submission: &mut Submission) {
-        for student in &submission.students {
+    /// Notes who the answer file `file` is from; a finding for each id that was there before.
+    pub fn add(&mut self, students: &[Student], file: &str) -> Vec<Finding> {
+        let mut findings = Vec::new();
+        for student in students {
             let files = self.files.entry(student.id.clone()).or_default();
             if !files.is_empty() {
-                submission.findings.push(Finding {
+                findings.push(Finding {
                     severity: Severity::Warning,
                     code: "student.twice",
                     message: format!(
@@ -25,8 +26,9 @@ impl StudentsSeen {
                     span: None,
                 });
             }
-            files.push(submission.source.name.clone());
+            files.push(file.to_owned());
         }
+        findings
     }
 
     /// (id, files) of every id that more than one file gives.

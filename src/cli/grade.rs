@@ -1,4 +1,6 @@
-use super::outcome::{Failure, OURS, THEIRS, colour_on_stderr, load_roster, load_with_reference};
+use super::outcome::{
+    Failure, INTERRUPTED, OURS, THEIRS, colour_on_stderr, load_roster, load_with_reference,
+};
 use crate::class::{ClassJob, Outcome, find_answer_files, grade_class};
 use crate::grading::HandMarksFile;
 use crate::grading::{Catalogue, HandMarks};
@@ -6,8 +8,11 @@ use crate::lab::LabDefinition;
 use crate::report::ReportKit;
 use crate::source::{Severity, SourceText, sanitize};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Mark answer files: a report for each, a class page, a gradebook.
 #[derive(clap::Args)]
@@ -33,6 +38,9 @@ pub struct Arguments {
     /// Worker threads, 0 for one a core.
     #[arg(long, value_name = "N", default_value_t = 0)]
     threads: usize,
+    /// Mark everything again, also what has not changed since the last run into the same folder.
+    #[arg(long)]
+    from_scratch: bool,
     /// End with exit code 1 when a file could not be read.
     #[arg(long)]
     strict: bool,
@@ -57,9 +65,22 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         files: &files,
         out: &arguments.out,
         threads: arguments.threads,
+        from_scratch: arguments.from_scratch,
     };
-    let outcome = grade_class(&job, &|done| bar.set_position(done as u64))?;
+    let stop = stop_on_interrupt();
+    let outcome = grade_class(&job, &|progress| {
+        bar.set_position(progress.done as u64);
+        if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    })?;
     bar.finish_and_clear();
+    if outcome.stopped {
+        eprintln!(
+            "stopped after {} of {}; run the same command again to go on",
+            outcome.submissions,
+            counted(files.len(), "submission", "submissions")
+        );
+        return Ok(ExitCode::from(INTERRUPTED));
+    }
     if let Some((_, source)) = &given {
         for finding in &outcome.decisions_without_answers {
             eprintln!("{}", finding.render(source, colour_on_stderr()));
@@ -91,6 +112,20 @@ fn load_marks(path: &Path, lab: &LabDefinition) -> Result<(HandMarksFile, Source
     Ok((marks, source))
 }
 
+/// Set when the run is to end: at Ctrl-C, or when the system asks.
+fn stop_on_interrupt() -> Arc<AtomicBool> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let seen = Arc::clone(&stop);
+    // Without a handler an interrupt ends the process at once, which loses no file either.
+    let _ = ctrlc::set_handler(move || {
+        // Whoever asks twice does not want to wait.
+        if seen.swap(true, Ordering::Relaxed) {
+            std::process::exit(i32::from(INTERRUPTED));
+        }
+    });
+    stop
+}
+
 fn progress_bar(submissions: usize) -> ProgressBar {
     // Drawn on standard error, and only when that is a terminal.
     let bar = ProgressBar::with_draw_target(Some(submissions as u64), ProgressDrawTarget::stderr());
@@ -109,6 +144,11 @@ fn summary(outcome: &Outcome, out: &Path) -> String {
         outcome.possible
     );
     for (count, one, many) in [
+        (
+            outcome.kept,
+            "is as the last run left it: nothing has changed",
+            "are as the last run left them: nothing has changed",
+        ),
         (outcome.unreadable, "could not be read: see its report", "could not be read: see their reports"),
         (
             outcome.to_review,
@@ -119,6 +159,11 @@ fn summary(outcome: &Outcome, out: &Path) -> String {
             outcome.failed,
             "made polemark fail and is left to a person: please report this",
             "made polemark fail and are left to a person: please report this",
+        ),
+        (
+            outcome.removed_reports,
+            "report of an answer that is not there any more was removed",
+            "reports of answers that are not there any more were removed",
         ),
         (
             outcome.older_reports,

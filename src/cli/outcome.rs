@@ -11,6 +11,8 @@ use std::process::ExitCode;
 pub const THEIRS: u8 = 1;
 /// Ours or the caller's fault.
 pub const OURS: u8 = 2;
+/// Somebody stopped it: 128 and the number of the signal, as shells count.
+pub const INTERRUPTED: u8 = 130;
 
 /// Why a verb ended early, as printed.
 #[derive(Debug, thiserror::Error)]

@@ -1,88 +1,16 @@
 //! The program as its users run it: every verb, its outputs and its exit codes.
 
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
-
-/// A run of the real program in a folder of its own.
-struct Bench {
-    folder: tempfile::TempDir,
-}
-
-impl Bench {
-    fn new() -> Self {
-        Self { folder: tempfile::tempdir().expect("a temporary folder") }
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
-
-    fn write(&self, name: &str, text: &str) -> PathBuf {
-        let path = self.path(name);
-        std::fs::create_dir_all(path.parent().expect("a folder")).expect("made");
-        std::fs::write(&path, text).expect("written");
-        path
-    }
-
-    fn run(&self, arguments: &[&str]) -> Ran {
-        let output = Command::new(env!("CARGO_BIN_EXE_polemark"))
-            .args(arguments)
-            .current_dir(self.folder.path())
-            .env("NO_COLOR", "1")
-            .output()
-            .expect("the program starts");
-        Ran::from(output)
-    }
-}
-
-struct Ran {
-    code: Option<i32>,
-    out: String,
-    err: String,
-}
-
-impl From<Output> for Ran {
-    fn from(output: Output) -> Self {
-        Self {
-            code: output.status.code(),
-            out: String::from_utf8(output.stdout).expect("UTF-8"),
-            err: String::from_utf8(output.stderr).expect("UTF-8"),
-        }
-    }
-}
-
-impl Ran {
-    #[track_caller]
-    fn ends_with(self, code: i32) -> Self {
-        assert_eq!(self.code, Some(code), "out: {}\nerr: {}", self.out, self.err);
-        self
-    }
-}
-
-fn samples() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions")
-}
+use crate::program::{Program, files_below, samples};
+use std::path::Path;
+use std::process::Command;
 
 fn embedded_lab() -> &'static str {
     polemark::lab::embedded().iter().find(|(id, _)| *id == polemark::lab::DEFAULT).expect("embedded").1
 }
 
-fn files_below(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    walkdir::WalkDir::new(folder)
-        .into_iter()
-        .map(|entry| entry.expect("readable"))
-        .filter(|entry| entry.file_type().is_file())
-        .map(|entry| {
-            let name = entry.path().strip_prefix(folder).expect("below").to_string_lossy().into_owned();
-            (name, std::fs::read(entry.path()).expect("read"))
-        })
-        .collect()
-}
-
 #[test]
 fn grade_writes_four_outputs_for_every_file_and_the_same_bytes_every_time() {
-    let bench = Bench::new();
+    let bench = Program::new();
     let samples = samples();
     let count = files_below(&samples).keys().filter(|name| name.ends_with(".yaml")).count();
     assert!(count >= 15);
@@ -106,7 +34,7 @@ fn grade_writes_four_outputs_for_every_file_and_the_same_bytes_every_time() {
 
 #[test]
 fn reports_stand_alone_and_carry_no_script() {
-    let bench = Bench::new();
+    let bench = Program::new();
     bench.run(&["grade", &samples().to_string_lossy(), "--out", "out"]).ends_with(0);
     for (name, bytes) in files_below(&bench.path("out")) {
         if !name.ends_with(".html") {
@@ -136,7 +64,7 @@ fn reports_stand_alone_and_carry_no_script() {
 
 #[test]
 fn a_line_of_results_has_the_promised_shape() {
-    let bench = Bench::new();
+    let bench = Program::new();
     let file = samples().join("model-answer.yaml");
     bench.run(&["grade", &file.to_string_lossy(), "--out", "out"]).ends_with(0);
     let text = std::fs::read_to_string(bench.path("out/results.jsonl")).expect("written");
@@ -157,7 +85,7 @@ fn a_line_of_results_has_the_promised_shape() {
 
 #[test]
 fn a_wrong_transfer_function_comes_with_what_explains_it() {
-    let bench = Bench::new();
+    let bench = Program::new();
     let file = samples().join("seed-report.yaml");
     bench.run(&["grade", &file.to_string_lossy(), "--out", "out"]).ends_with(0);
     let text = std::fs::read_to_string(bench.path("out/results.jsonl")).expect("written");
@@ -194,7 +122,7 @@ fn a_wrong_transfer_function_comes_with_what_explains_it() {
 
 #[test]
 fn the_reference_is_exact_to_every_digit_json_holds() {
-    let bench = Bench::new();
+    let bench = Program::new();
     let json = bench.run(&["reference", "--format", "json"]).ends_with(0).out;
     let key: serde_json::Value = serde_json::from_str(&json).expect("JSON");
     let points = &key["models"][0]["operating_points"];
@@ -232,7 +160,7 @@ fn the_reference_is_exact_to_every_digit_json_holds() {
 
 #[test]
 fn other_formats_of_the_key() {
-    let bench = Bench::new();
+    let bench = Program::new();
     let text = bench.run(&["reference"]).ends_with(0).out;
     assert!(text.contains("poles") && text.contains("stable"));
     bench.run(&["reference", "--format", "html", "--out", "key.html"]).ends_with(0);
@@ -242,7 +170,7 @@ fn other_formats_of_the_key() {
 
 #[test]
 fn verify_passes_the_lab_and_fails_a_changed_copy() {
-    let bench = Bench::new();
+    let bench = Program::new();
     let passed = bench.run(&["verify"]).ends_with(0).out;
     assert!(passed.contains("proven"));
     let copy = bench.write("copy/lab.yaml", embedded_lab());
@@ -256,7 +184,7 @@ fn verify_passes_the_lab_and_fails_a_changed_copy() {
 
 #[test]
 fn the_template_is_blank_and_welcome() {
-    let bench = Bench::new();
+    let bench = Program::new();
     let template = bench.run(&["new"]).ends_with(0).out;
     let named = template.replacen("  id:\n  name:\n", "  id: EE-1\n  name: A. Student\n", 1);
     let file = bench.write("answers.yaml", &named);
@@ -269,7 +197,7 @@ fn the_template_is_blank_and_welcome() {
 
 #[test]
 fn check_finds_what_cannot_be_read_and_says_where() {
-    let bench = Bench::new();
+    let bench = Program::new();
     let file = bench.write(
         "answers.yaml",
         "lab: ee361-lab3\nstudent: {id: EE-1, name: A. Student}\nanswers:\n  hanging.response:\n    poles: [-2+j3..1]\n",
@@ -281,7 +209,7 @@ fn check_finds_what_cannot_be_read_and_says_where() {
 
 #[test]
 fn check_finds_contradictions_within_a_file() {
-    let bench = Bench::new();
+    let bench = Program::new();
     let file = bench.write(
         "answers.yaml",
         "lab: ee361-lab3\nstudent: {id: EE-1, name: A. Student}\nanswers:\n  hanging.response:\n    poles: [2, -3]\n    stability: stable\n",
@@ -292,7 +220,7 @@ fn check_finds_contradictions_within_a_file() {
 /// Without `--lab` each file is read as an answer to the lab it names, however that is written.
 #[test]
 fn check_takes_the_embedded_lab_that_a_file_names() {
-    let bench = Bench::new();
+    let bench = Program::new();
     let files = ["lab: cruise-control", "lab: 'ball-and-beam' # mine", "student: {id: S-2}\nlab: suspension"];
     let names = ["cruise-control", "ball-and-beam", "suspension"];
     for (lab, name) in files.into_iter().zip(names) {
@@ -309,7 +237,7 @@ fn check_takes_the_embedded_lab_that_a_file_names() {
 /// `check` is built without the reference: another key must not change one byte of what it says.
 #[test]
 fn check_cannot_leak_the_key() {
-    let bench = Bench::new();
+    let bench = Program::new();
     let answers = "lab: ee361-lab3\nstudent: {id: EE-1, name: A. Student}\nanswers:\n  hanging.transfer_function: -0.06s/(0.0132s^3+0.0024s^2+0.412s+0.0589)\n  hanging.response: {stability: unstable, poles: [-1], final_value: 3}\n";
     let file = bench.write("answers.yaml", answers);
     let right = bench.write("right/lab.yaml", embedded_lab());
@@ -323,7 +251,7 @@ fn check_cannot_leak_the_key() {
 
 #[test]
 fn exit_codes_say_whose_fault_it_is() {
-    let bench = Bench::new();
+    let bench = Program::new();
     let broken_lab = bench.write("broken/lab.yaml", "id: [");
     let malformed = samples().join("malformed.yaml");
     let malformed = malformed.to_string_lossy();
@@ -343,7 +271,7 @@ fn exit_codes_say_whose_fault_it_is() {
 
 #[test]
 fn marks_given_by_a_person_count_and_make_the_cover_whole() {
-    let bench = Bench::new();
+    let bench = Program::new();
     let file = bench.write("a.yaml", "lab: ee361-lab3\nstudent: {id: EE-1, name: A. Student}\nanswers:\n  speaker.nonlinearity: saturation\n");
     let lab = polemark::lab::load(polemark::lab::DEFAULT).expect("embedded");
     let observed: Vec<String> = lab.observed.iter().map(|row| format!("{}: 4", row.id)).collect();
@@ -376,7 +304,7 @@ fn marks_given_by_a_person_count_and_make_the_cover_whole() {
 /// Two who hand in together may still be asked different questions in the viva.
 #[test]
 fn members_of_a_group_keep_their_own_marks_by_hand() {
-    let bench = Bench::new();
+    let bench = Program::new();
     let answers = "lab: ee361-lab3\nstudents:\n  - {id: EE-1, name: A. Student}\n  - {id: EE-2, name: B. Learner}\nanswers:\n  speaker.nonlinearity: saturation\n";
     let file = bench.write("group.yaml", answers);
     let marks =
@@ -401,7 +329,7 @@ fn members_of_a_group_keep_their_own_marks_by_hand() {
 #[cfg(unix)]
 #[test]
 fn links_and_pipes_are_reported_not_followed() {
-    let bench = Bench::new();
+    let bench = Program::new();
     bench.write("class/a.yaml", "lab: ee361-lab3\nstudent: {id: EE-1, name: A. Student}\nanswers:\n");
     let secret = bench.write("secret.txt", "root: hunter2\n");
     std::os::unix::fs::symlink(&secret, bench.path("class/link.yaml")).expect("linked");
@@ -418,7 +346,7 @@ fn links_and_pipes_are_reported_not_followed() {
 
 #[test]
 fn ids_given_twice_and_old_reports_are_said() {
-    let bench = Bench::new();
+    let bench = Program::new();
     for name in ["class/a.yaml", "class/b.yaml.txt"] {
         bench.write(name, "lab: ee361-lab3\nstudent: {id: EE-1, name: A. Student}\nanswers:\n");
     }
@@ -426,13 +354,16 @@ fn ids_given_twice_and_old_reports_are_said() {
     assert!(first.contains("several files give the id `EE-1`: a.yaml, b.yaml.txt"), "{first}");
     let results = std::fs::read_to_string(bench.path("out/results.jsonl")).expect("written");
     assert_eq!(results.matches("student.twice").count(), 1);
+    bench.write("out/reports/mine.html", "not of polemark");
     let second = bench.run(&["grade", "class/a.yaml", "--out", "out"]).ends_with(0).out;
+    assert!(second.contains("1 report of an answer that is not there any more was removed"), "{second}");
+    assert!(!bench.path("out/reports/EE-1-2.html").exists() && bench.path("out/reports/mine.html").exists());
     assert!(second.contains("1 report of an earlier run is still in the folder"), "{second}");
 }
 
 #[test]
 fn a_lab_that_cannot_be_computed_says_which_and_why() {
-    let bench = Bench::new();
+    let bench = Program::new();
     let lab = bench.write(
         "lab.yaml",
         &embedded_lab().replace("{limit: 5}", "{limit: 5e-324}").replace("duration_s: 12", "duration_s: 1e9"),

@@ -1,5 +1,6 @@
 //! Whole runs: the program and the library over files as people hand them in.
 
+mod again;
 mod alike;
 mod authoring;
 mod bench;
@@ -17,6 +18,7 @@ mod ledger;
 mod marking_examples;
 mod numbers;
 mod plots;
+mod program;
 mod readme;
 mod schema;
 mod switches;
