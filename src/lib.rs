@@ -5,6 +5,7 @@
 //!     │
 //!   algebra                  exact rationals, polynomials, expressions
 //!     │           source     text with places in it: spans, findings, a YAML tree
+//!     │           annotations   findings for other programs: JUnit, SARIF, GitHub
 //!   lti   nonlinear  │       transfer functions, poles, responses · saturation, relay, backlash …
 //!     └──┬──┘      prose     what English sentences say: phrases, denials, claims about a response
 //!     model          │       equations → equilibrium → linearization
@@ -26,6 +27,7 @@ mod english;
 mod names;
 
 pub mod algebra;
+pub mod annotations;
 pub mod lti;
 pub mod model;
 pub mod nonlinear;

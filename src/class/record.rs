@@ -1,7 +1,7 @@
 use super::{Marked, OtherVariant};
 use crate::grading::{Cause, Conflict, Diagnosis, FollowThrough, ItemScore, Ledger, Tally, Verdict};
 use crate::lab::{LabDefinition, Points};
-use crate::source::{Position, Severity};
+use crate::source::Position;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -401,13 +401,8 @@ impl LedgerRecord {
 
 impl FindingRecord {
     fn of(finding: &crate::source::Finding, position: Option<Position>) -> Self {
-        let severity = match finding.severity {
-            Severity::Error => "error",
-            Severity::Warning => "warning",
-            Severity::Note => "note",
-        };
         Self {
-            severity: severity.to_owned(),
+            severity: finding.severity.word().to_owned(),
             code: finding.code.to_owned(),
             message: finding.message.clone(),
             line: position.map(|p| p.line),

@@ -1,4 +1,6 @@
+use super::format::Format;
 use super::outcome::{Failure, THEIRS, colour_on_stdout, load_lab, write_output};
+use crate::annotations::{Annotations, Case, FileAnnotations};
 use crate::lab::LabDefinition;
 use crate::report::numbers::counted;
 use crate::source::{Finding, Severity, Value, sanitize};
@@ -13,7 +15,7 @@ use std::process::ExitCode;
 /// The right answers are not computed and cannot be seen here.
 #[derive(clap::Args)]
 #[command(
-    after_long_help = "Examples:\n  polemark check answers.yaml\n  polemark check answers.yaml --lab labs/mine/lab.yaml\n\nExit code: 0 when there is nothing to look at (blanks are nothing), 1 when something cannot be read, does not\nagree with itself, or is read with a warning."
+    after_long_help = "Examples:\n  polemark check answers.yaml\n  polemark check answers.yaml --lab labs/mine/lab.yaml\n  polemark check answers.yaml --format github\n\nExit code: 0 when there is nothing to look at (blanks are nothing), 1 when something cannot be read, does not\nagree with itself, or is read with a warning."
 )]
 pub struct Arguments {
     /// Answer files.
@@ -22,10 +24,14 @@ pub struct Arguments {
     /// Embedded lab, or path of a lab file [default: the embedded lab that the file names, else ee361-lab3].
     #[arg(long)]
     lab: Option<String>,
+    /// How to tell it.
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
 }
 
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let mut all_well = true;
+    let mut annotations = Annotations { verb: "polemark check", files: Vec::new() };
     let mut labs: BTreeMap<Option<String>, LabDefinition> = BTreeMap::new();
     for path in &arguments.files {
         let bytes = crate::class::read_capped(path)
@@ -37,9 +43,15 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
                 place.insert(lab)
             }
         };
-        let (text, well) = check_file(lab, path, &bytes);
-        write_output(None, &text)?;
-        all_well &= well;
+        let checked = check_file(lab, path, &bytes);
+        if arguments.format == Format::Text {
+            write_output(None, &checked.text)?;
+        }
+        annotations.files.push(checked.annotations);
+        all_well &= checked.well;
+    }
+    if arguments.format != Format::Text {
+        write_output(None, &arguments.format.output(String::new(), &annotations)?)?;
     }
     Ok(if all_well { ExitCode::SUCCESS } else { ExitCode::from(THEIRS) })
 }
@@ -51,7 +63,15 @@ fn named_lab(bytes: &[u8]) -> Option<String> {
     crate::lab::embedded().iter().find(|(id, _)| id == name).map(|(id, _)| (*id).to_owned())
 }
 
-fn check_file(lab: &LabDefinition, path: &Path, bytes: &[u8]) -> (String, bool) {
+/// What came of checking one file.
+struct Checked {
+    text: String,
+    annotations: FileAnnotations,
+    /// There is nothing to look at.
+    well: bool,
+}
+
+fn check_file(lab: &LabDefinition, path: &Path, bytes: &[u8]) -> Checked {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let folder = Folder(path.parent().unwrap_or(Path::new("")).to_path_buf());
     let (submission, values) = crate::class::read_with_own_values(lab, &|sheet| {
@@ -90,7 +110,37 @@ fn check_file(lab: &LabDefinition, path: &Path, bytes: &[u8]) -> (String, bool) 
         missing.len()
     );
     text.push_str(&format!("{name}: {counts}\n"));
-    (text, wrong == 0 && submission.readable)
+    Checked {
+        text,
+        annotations: annotations(lab, &submission, &findings),
+        well: wrong == 0 && submission.readable,
+    }
+}
+
+/// How each answer was read, and every finding under the field it is about.
+fn annotations(lab: &LabDefinition, submission: &Submission, findings: &[Finding]) -> FileAnnotations {
+    let mut cases = Vec::new();
+    for field in &lab.sheet.fields {
+        if let Some(answer) = submission.answers.get(&field.path).filter(|answer| answer.value.is_ok()) {
+            cases.push(Case::well(&field.path, "answer.read", &format!("read as {}", answer.read_as())));
+        }
+    }
+    for finding in findings {
+        let about = finding.span.and_then(|span| {
+            let answers = submission.answers.values();
+            answers
+                .filter(|one| one.span.start <= span.start && span.end <= one.span.end)
+                .min_by_key(|one| one.span.end - one.span.start)
+        });
+        let name = about.map_or("answer file", |answer| answer.path.as_str());
+        let mut case = Case::of(name, finding, &submission.source);
+        // A blank is nothing to look at.
+        if finding.code == "answer.missing" {
+            case.severity = Some(Severity::Note);
+        }
+        cases.push(case);
+    }
+    FileAnnotations { file: submission.source.name.clone(), cases }
 }
 
 /// Whose values stand for the letters, so that a mistyped id is noticed.

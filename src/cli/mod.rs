@@ -2,6 +2,7 @@
 //! ends the process.
 
 mod check;
+mod format;
 mod grade;
 mod handout;
 mod labs;

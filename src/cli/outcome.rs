@@ -1,3 +1,4 @@
+use crate::annotations::JunitError;
 use crate::class::{ClassError, IntakeError, Roster, RosterError};
 use crate::lab::{LabDefinition, LoadError};
 use crate::reference::{Reference, ReferenceError};
@@ -33,7 +34,9 @@ pub enum Failure {
     Write { path: PathBuf, error: io::Error },
     #[error("error: the output cannot be written: {0}")]
     Output(#[from] io::Error),
-    #[error("error: the reference cannot be written as JSON: {0}")]
+    #[error("error: {0}")]
+    Junit(#[from] JunitError),
+    #[error("error: this cannot be written as JSON: {0}")]
     Json(#[from] serde_json::Error),
     #[error("error: {0}")]
     Roster(#[from] RosterError),

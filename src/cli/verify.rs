@@ -1,6 +1,9 @@
+use super::format::Format;
 use super::outcome::{Failure, THEIRS, colour_on_stdout, load_with_reference, write_output};
-use crate::proof::{Check, missing, prove, to_paste};
-use crate::source::{Finding, Severity, SourceText};
+use crate::annotations::{Annotations, Case, FileAnnotations};
+use crate::lab::LabDefinition;
+use crate::proof::{Check, Missing, missing, prove, to_paste};
+use crate::source::{Finding, SourceText};
 use std::process::ExitCode;
 
 /// Prove a lab: its key agrees with stated values and a second route, the model answer earns full marks, a blank none.
@@ -14,6 +17,9 @@ pub struct Arguments {
     /// End with exit code 1 also when something is still to do, so that nothing passes unproven.
     #[arg(long)]
     strict: bool,
+    /// How to tell it.
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
 }
 
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
@@ -40,9 +46,31 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         (0, n) => format!("{}: {} checks hold, but it is not proven yet: {n} to do\n", lab.id, checks.len()),
         (n, _) => format!("{}: NOT proven, {n} of {} checks fail\n", lab.id, checks.len()),
     });
+    let text = arguments.format.output(text, &annotations(&lab, &checks, &missing))?;
     write_output(None, &text)?;
     let well = failed == 0 && (to_do == 0 || !arguments.strict);
     Ok(if well { ExitCode::SUCCESS } else { ExitCode::from(THEIRS) })
+}
+
+/// Each check, and what is still to do.
+fn annotations(lab: &LabDefinition, checks: &[Check], missing: &[Missing]) -> Annotations {
+    let checks = checks.iter().map(|check| match check.holds {
+        true => Case::well(&check.what, "verify.holds", &check.found),
+        false => Case::of(&check.what, &failed(check), &lab.text),
+    });
+    let missing = missing.iter().map(|one| {
+        let finding = match one.keeps_from_proof {
+            true => Finding::warning("verify.to_do", &one.found),
+            false => Finding::note("verify.hint", &one.found),
+        };
+        Case::of(&one.what, &finding, &lab.text)
+    });
+    let file = FileAnnotations { file: lab.text.name.clone(), cases: checks.chain(missing).collect() };
+    Annotations { verb: "polemark verify", files: vec![file] }
+}
+
+fn failed(check: &Check) -> Finding {
+    Finding { span: check.span, ..Finding::error("verify.failed", &check.found) }
 }
 
 /// Said before the lines of [`to_paste`].
@@ -59,16 +87,7 @@ fn shown(check: &Check, lab: &SourceText) -> String {
     let line = wrapped(&format!("FAIL  {}: {}", check.what, check.found));
     match check.span {
         None => line,
-        Some(span) => {
-            let finding = Finding {
-                severity: Severity::Error,
-                code: "verify.failed",
-                message: check.found.clone(),
-                help: None,
-                span: Some(span),
-            };
-            format!("{line}{}\n", finding.render(lab, colour_on_stdout()))
-        }
+        Some(_) => format!("{line}{}\n", failed(check).render(lab, colour_on_stdout())),
     }
 }
 

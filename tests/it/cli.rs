@@ -371,3 +371,34 @@ fn a_lab_that_cannot_be_computed_says_which_and_why() {
     let ran = bench.run(&["verify", &lab.to_string_lossy()]).ends_with(1);
     assert!(ran.err.contains("simulation `backlash`") && ran.err.contains("lab.yaml"), "{}", ran.err);
 }
+
+#[test]
+fn findings_are_told_in_the_formats_of_other_programs() {
+    let bench = Program::new();
+    let hostile = samples().join("hostile_text.yaml");
+    let file = hostile.to_string_lossy();
+    let told = |format: &str| bench.run(&["check", &file, "--format", format]).ends_with(1).out;
+    let github = told("github");
+    assert!(!github.is_empty());
+    for line in github.lines() {
+        let level = ["::error ", "::error::", "::warning ", "::warning::", "::notice "];
+        assert!(level.iter().any(|start| line.starts_with(start)) && !line.contains("##["), "{line}");
+    }
+    let sarif: serde_json::Value = serde_json::from_str(&told("sarif")).expect("JSON");
+    assert!(!sarif["runs"][0]["results"].as_array().expect("results").is_empty());
+    let json: serde_json::Value = serde_json::from_str(&told("json")).expect("JSON");
+    assert_eq!(json["verb"], "polemark check");
+    let junit = told("junit");
+    assert!(
+        junit.starts_with("<?xml") && junit.contains("<failure") && !junit.contains("<script"),
+        "{junit}"
+    );
+
+    let lab = bench.write("lab.yaml", &embedded_lab().replacen("final_value: 0", "final_value: 1", 1));
+    let lab = lab.to_string_lossy();
+    let told = |format: &str| bench.run(&["verify", &lab, "--format", format]).ends_with(1).out;
+    assert!(told("github").contains("::error file="));
+    assert!(told("junit").contains("type=\"verify.failed\""));
+    let well = bench.run(&["verify", "--format", "github"]).ends_with(0).out;
+    assert!(!well.contains("::error"), "{well}");
+}
