@@ -1,22 +1,21 @@
 use super::fingerprint::{Fingerprint, fingerprint};
-use super::intake::AnswerFile;
+use super::intake::{AnswerFile, NotRead, settle_people, student_records};
 use super::kept::{Entry, EntryPart, Kept, report_is_there};
-use super::marked::{Marked, our_failure, unreadable_submission};
+use super::marked::{Marked, our_failure};
 use super::new_file::NewFile;
 use super::numbers::{Bench, Benches, Numbers, WithoutNumbers, numbers};
 use super::record::Record;
-use super::run::{ClassError, ClassJob, read_capped};
+use super::run::{ClassError, ClassJob};
 use crate::grading::{
     Catalogue, HandMarks, HandMarksFile, MemberCard, Scorecard, grade, grade_beside_members,
     grade_without_numbers, leave_to_a_person,
 };
 use crate::source::{Finding, Severity, sanitize};
-use crate::submission::{AnswerSheet, AttachmentError, Attachments, Folder, Student, Submission, read};
+use crate::submission::{AnswerSheet, AttachmentError, Attachments, Student, Submission};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// One report's worth of an answer file, before it has a name: group members who were given different marks by hand (a viva
@@ -56,9 +55,10 @@ pub struct SourceFile {
 }
 
 /// A submission, by whose numbers it is marked, and where its report goes.
-pub struct Named {
+pub struct Named<'a> {
     pub submission: Submission,
     pub numbers: Numbers,
+    pub file: &'a AnswerFile,
     pub report: String,
 }
 
@@ -79,7 +79,7 @@ impl Desk<'_> {
     /// The parts of an answer file, as an earlier run left them, or read.
     pub fn look(&self, place: usize) -> Vec<Part> {
         let Some(file) = self.job.files.get(place) else { return Vec::new() };
-        let content = Content::of(file);
+        let content = file.read_capped();
         let key = self.key(file, &content);
         self.kept_parts(place, file, &key).unwrap_or_else(|| self.read_parts(place, file, &content, key))
     }
@@ -87,17 +87,17 @@ impl Desk<'_> {
     /// The same part read, whatever was kept of it: another file of the class has changed what is said of it.
     pub fn look_again(&self, part: &Part) -> Option<Part> {
         let file = self.job.files.get(part.source.place)?;
-        let parts = self.read_parts(part.source.place, file, &Content::of(file), part.source.key.clone());
+        let parts = self.read_parts(part.source.place, file, &file.read_capped(), part.source.key.clone());
         parts.into_iter().nth(part.number)
     }
 
-    fn key(&self, file: &AnswerFile, content: &Content) -> String {
+    fn key(&self, file: &AnswerFile, content: &Result<Vec<u8>, NotRead>) -> String {
         let Some(run) = &self.run else { return String::new() };
         let run = run.clone().with(&file.name).with(&file.id).with([u8::from(file.followed)]);
+        let run = run.with_shown(&file.handed_in).with_shown(&file.only_others).with_shown(&file.beside_others);
         match content {
-            Content::Bytes(bytes) => run.with(bytes),
-            Content::NotOpened(error) => run.with("not opened").with(error.to_string()),
-            Content::Link => run.with("a link"),
+            Ok(bytes) => run.with(bytes),
+            Err(why) => run.with("not read").with(why.to_string()),
         }
         .hex()
     }
@@ -105,7 +105,7 @@ impl Desk<'_> {
     fn kept_parts(&self, place: usize, file: &AnswerFile, key: &str) -> Option<Vec<Part>> {
         self.run.as_ref()?;
         let (entry, records) = self.kept.entry(&file.name)?;
-        let folder = attachments_of(file);
+        let folder = file.attachments();
         let same = |(name, found): &(String, String)| *found == outcome(&folder.read(name));
         if entry.key != key
             || entry.marks != self.marks(entry.students.iter().map(String::as_str))
@@ -132,8 +132,8 @@ impl Desk<'_> {
         parts.collect()
     }
 
-    fn read_parts(&self, place: usize, file: &AnswerFile, content: &Content, key: String) -> Vec<Part> {
-        let noted = Noted { inside: attachments_of(file), asked: Mutex::default() };
+    fn read_parts(&self, place: usize, file: &AnswerFile, content: &Result<Vec<u8>, NotRead>, key: String) -> Vec<Part> {
+        let noted = Noted { inside: file.attachments(), asked: Mutex::default() };
         let (submission, numbers) = self.read(file, content, &noted);
         let asked = noted.asked.into_inner().unwrap_or_else(PoisonError::into_inner);
         let students: Vec<String> = submission.students.iter().map(|student| student.id.clone()).collect();
@@ -170,17 +170,22 @@ impl Desk<'_> {
     fn read(
         &self,
         file: &AnswerFile,
-        content: &Content,
+        content: &Result<Vec<u8>, NotRead>,
         attachments: &dyn Attachments,
     ) -> (Submission, Numbers) {
         let lab = self.job.lab;
-        let mut submission = read_submission(file, content, &lab.sheet, attachments);
-        let mut own = numbers(lab, &mut submission, self.job.roster);
+        let read = |sheet: &AnswerSheet| {
+            let mut submission = file.read_from(content, sheet, attachments);
+            settle_people(&mut submission, &file.handed_in, self.job.roster);
+            submission
+        };
+        let mut submission = read(&lab.sheet);
+        let mut own = numbers(lab, &submission);
         let theirs = own.variant().map(|variant| self.benches.lab(variant));
         // That a lab does not work with somebody's values is told by marking.
         if let Some(Ok(theirs)) = theirs.as_deref() {
-            submission = read_submission(file, content, &theirs.sheet, attachments);
-            own = numbers(lab, &mut submission, self.job.roster);
+            submission = read(&theirs.sheet);
+            own = numbers(lab, &submission);
         }
         (submission, own)
     }
@@ -188,8 +193,8 @@ impl Desk<'_> {
     /// In the order given. Submissions with the same numbers are marked one after another, so that what these need is at hand.
     ///
     /// With each its fingerprint of the report.
-    pub fn mark_all(&self, named: Vec<Named>) -> Result<Vec<(Marked, String)>, ClassError> {
-        let mut numbered: Vec<(usize, Named)> = named.into_iter().enumerate().collect();
+    pub fn mark_all(&self, named: Vec<Named<'_>>) -> Result<Vec<(Marked, String)>, ClassError> {
+        let mut numbered: Vec<(usize, Named<'_>)> = named.into_iter().enumerate().collect();
         numbered.sort_by(|(_, one), (_, two)| one.numbers.cmp(&two.numbers));
         let marked = numbered.into_par_iter().map(|(place, named)| Ok((place, self.mark_and_write(named)?)));
         let mut marked: Vec<(usize, (Marked, String))> = marked.collect::<Result<_, ClassError>>()?;
@@ -197,8 +202,8 @@ impl Desk<'_> {
         Ok(marked.into_iter().map(|(_, marked)| marked).collect())
     }
 
-    fn mark_and_write(&self, named: Named) -> Result<(Marked, String), ClassError> {
-        let Named { mut submission, numbers, report } = named;
+    fn mark_and_write(&self, named: Named<'_>) -> Result<(Marked, String), ClassError> {
+        let Named { mut submission, numbers, file, report } = named;
         let job = self.job;
         // Members of a group that are still together were given the same.
         let marks = job.marks.and_then(|file| Some(file.marks_for(&submission.students.first()?.id)));
@@ -242,6 +247,8 @@ impl Desk<'_> {
             parameters: numbers.values(job.lab),
             variant: numbers.variant().cloned(),
             other_variants: Vec::new(),
+            handed_in: file.handed_in.lms.is_some().then(|| file.handed_in.clone()),
+            students: student_records(&submission, job.roster),
             submission,
             scorecard,
             report,
@@ -298,35 +305,13 @@ fn does_not_work(why: &str) -> Finding {
     }
 }
 
-/// What an answer file holds.
-enum Content {
-    Bytes(Vec<u8>),
-    NotOpened(io::Error),
-    /// To another file, which is not followed.
-    Link,
-}
-
-impl Content {
-    fn of(file: &AnswerFile) -> Self {
-        if file.path.is_symlink() && !file.followed {
-            return Self::Link;
-        }
-        read_capped(&file.path).map_or_else(Self::NotOpened, Self::Bytes)
-    }
-}
-
-/// The files beside an answer file.
-fn attachments_of(file: &AnswerFile) -> Folder {
-    Folder(file.path.parent().unwrap_or(Path::new("")).to_path_buf())
-}
-
 /// Remembers what was asked for, and what came of it.
-struct Noted<A> {
-    inside: A,
+struct Noted {
+    inside: Box<dyn Attachments>,
     asked: Mutex<BTreeMap<String, String>>,
 }
 
-impl<A: Attachments> Attachments for Noted<A> {
+impl Attachments for Noted {
     fn read(&self, file_name: &str) -> Result<Vec<u8>, AttachmentError> {
         let found = self.inside.read(file_name);
         let mut asked = self.asked.lock().unwrap_or_else(PoisonError::into_inner);
@@ -343,27 +328,6 @@ fn outcome(found: &Result<Vec<u8>, AttachmentError>) -> String {
     }
 }
 
-fn read_submission(
-    file: &AnswerFile,
-    content: &Content,
-    sheet: &AnswerSheet,
-    attachments: &dyn Attachments,
-) -> Submission {
-    let mut submission = match content {
-        Content::Bytes(bytes) => {
-            let read = || read(&file.id, &file.name, bytes, sheet, attachments);
-            catch_unwind(AssertUnwindSafe(read))
-                .unwrap_or_else(|_| unreadable_submission(&file.id, &file.name, our_failure()))
-        }
-        Content::NotOpened(error) => unreadable_submission(&file.id, &file.name, not_opened(error)),
-        Content::Link => unreadable_submission(&file.id, &file.name, is_a_link()),
-    };
-    if submission.students.is_empty() {
-        submission.students.push(Student { id: file.id.clone(), name: String::new() });
-    }
-    submission
-}
-
 /// Group members who were given different marks by hand, each alone.
 fn by_hand_marks(submission: Submission, marks: Option<&HandMarksFile>) -> Vec<Submission> {
     let given = |student: &Student| marks.map(|file| file.marks_for(&student.id));
@@ -373,24 +337,4 @@ fn by_hand_marks(submission: Submission, marks: Option<&HandMarksFile>) -> Vec<S
     }
     let alone = |student: &Student| Submission { students: vec![student.clone()], ..submission.clone() };
     submission.students.iter().map(alone).collect()
-}
-
-fn is_a_link() -> Finding {
-    Finding {
-        severity: Severity::Error,
-        code: "file.link",
-        message: "This is a link to another file, which is not followed.".to_owned(),
-        help: Some("Hand in the file itself.".to_owned()),
-        span: None,
-    }
-}
-
-fn not_opened(error: &io::Error) -> Finding {
-    Finding {
-        severity: Severity::Error,
-        code: "file.not_opened",
-        message: format!("The file could not be opened: {error}."),
-        help: None,
-        span: None,
-    }
 }

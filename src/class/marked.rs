@@ -1,4 +1,5 @@
-use super::OtherVariant;
+use super::record::StudentRecord;
+use super::{HandedIn, OtherVariant};
 use crate::grading::Scorecard;
 use crate::lab::Variant;
 use crate::source::{Finding, Severity, SourceText};
@@ -10,6 +11,10 @@ use std::collections::BTreeMap;
 pub struct Marked {
     pub submission: Submission,
     pub scorecard: Scorecard,
+    /// Who handed it in, where an LMS says so.
+    pub handed_in: Option<HandedIn>,
+    /// Its students, with what the roster says of them.
+    pub students: Vec<StudentRecord>,
     /// The report, relative to the output folder: `reports/EE-001.html`.
     pub report: String,
     /// (parameter, value as typed) it was marked by; `None` where everyone has the lab's own, empty when it is not known whose

@@ -20,12 +20,15 @@ mod students_seen;
 mod workplace;
 
 pub use handouts::{HandoutError, Handouts, write_handouts};
-pub use intake::{AnswerFile, IntakeError, find_answer_files};
+pub use intake::{
+    AnswerFile, Archive, ArchiveError, Aside, HandedIn, Intake, IntakeError, Lms, NotRead, Place, WhyAside,
+    find_answer_files, read_capped,
+};
 pub use marked::Marked;
 pub use numbers::read_with_own_values;
 pub use others::OtherVariant;
 pub use outcome::Outcome;
-pub use record::Record;
+pub use record::{HOLDS, Record, Status, StudentRecord};
 pub use roster::{Roster, RosterError, RosterStudent};
-pub use run::{ClassError, ClassJob, Progress, grade_class, read_capped};
+pub use run::{ClassError, ClassJob, Progress, grade_class};
 pub use workplace::is_unfinished;

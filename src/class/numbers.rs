@@ -1,9 +1,7 @@
-use super::Roster;
 use crate::grading::Catalogue;
 use crate::lab::{LabDefinition, SystemRef, Variant};
 use crate::reference::Reference;
 use crate::report::{ReportError, ReportKit};
-use crate::source::{Finding, Severity, sanitize};
 use crate::submission::{AnswerSheet, Submission};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -41,8 +39,8 @@ impl Numbers {
     }
 }
 
-/// By whose numbers `submission` is marked; an id that is not on the roster becomes a finding.
-pub fn numbers(lab: &LabDefinition, submission: &mut Submission, roster: Option<&Roster>) -> Numbers {
+/// By whose numbers `submission` is marked.
+pub fn numbers(lab: &LabDefinition, submission: &Submission) -> Numbers {
     let Some(rule) = &lab.variants else { return Numbers::Lab };
     let Some(variant) = first_id(submission).and_then(|id| rule.of(id)) else { return Numbers::Unknown };
     let members = submission.students.iter().skip(1).filter_map(|student| {
@@ -50,21 +48,6 @@ pub fn numbers(lab: &LabDefinition, submission: &mut Submission, roster: Option<
         Some((student.id.clone(), other))
     });
     let members = members.collect();
-    if let Some(roster) = roster {
-        for student in submission.students.iter().filter(|student| !roster.has(&student.id)) {
-            submission.findings.push(Finding {
-                severity: Severity::Warning,
-                code: "student.not_on_roster",
-                message: format!(
-                    "The student id `{}` is not on the list of the course. The numbers that belong to it as it is typed were \
-                     used; a person has to look at it.",
-                    sanitize(&student.id)
-                ),
-                help: None,
-                span: None,
-            });
-        }
-    }
     Numbers::Own { variant, members }
 }
 
@@ -189,7 +172,7 @@ pub fn read_with_own_values(
     read: &dyn Fn(&AnswerSheet) -> Submission,
 ) -> (Submission, Option<Vec<(String, String)>>) {
     let mut submission = read(&lab.sheet);
-    let own = numbers(lab, &mut submission, None);
+    let own = numbers(lab, &submission);
     if let Some(sheet) = own.variant().and_then(|variant| own_sheet(lab, variant)) {
         submission = read(&sheet);
     }

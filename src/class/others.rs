@@ -1,7 +1,7 @@
 //! Who else of the class has the numbers that an answer is right for: told to the instructor alone.
 
 use super::numbers::light_reference;
-use super::{ClassJob, Marked, read_capped};
+use super::{ClassJob, Marked};
 use crate::grading::other_variant::{
     Numbers, near_fields, right_fields, right_numbers, typed_numbers, weigh, wrong_fields,
 };
@@ -42,10 +42,7 @@ impl Others {
         let mut ids: BTreeMap<Variant, Vec<String>> = BTreeMap::new();
         let Some(rule) = &job.lab.variants else { return Self { ids, right: None } };
         let students = |file: &super::AnswerFile| -> Vec<String> {
-            let plain = !file.path.is_symlink() || file.followed;
-            let Some(bytes) = plain.then(|| read_capped(&file.path).ok()).flatten() else {
-                return Vec::new();
-            };
+            let Ok(bytes) = file.read_capped() else { return Vec::new() };
             // An answer file that makes reading fail is told of when it is marked.
             let read = || read(&file.id, &file.name, &bytes, &job.lab.sheet, &NoFiles);
             let read = std::panic::catch_unwind(std::panic::AssertUnwindSafe(read));

@@ -1,4 +1,4 @@
-use super::{Marked, OtherVariant};
+use super::{HandedIn, Marked, OtherVariant, RosterStudent};
 use crate::grading::{Cause, Conflict, Diagnosis, FollowThrough, ItemScore, Ledger, Tally, Verdict};
 use crate::lab::{LabDefinition, Points};
 use crate::source::Position;
@@ -16,6 +16,15 @@ pub struct Record {
     pub submission: String,
     /// The answer file's name, as found.
     pub file: String,
+    /// Whether it was marked, and if not, why there is a line all the same.
+    #[serde(default, skip_serializing_if = "Status::is_marked")]
+    pub status: Status,
+    /// The submission of the same owner that counts instead; only when superseded.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub superseded_by: Option<String>,
+    /// Who handed it in, as the LMS says it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub handed_in: Option<HandedIn>,
     pub students: Vec<StudentRecord>,
     /// Values as typed in the lab, where they differ from student to student; empty when it is not known whose file it is.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -52,7 +61,52 @@ pub struct Record {
 pub struct StudentRecord {
     pub id: String,
     pub name: String,
+    /// The row of the roster that is about them; absent without a roster, and for somebody who is not on it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub roster: Option<Box<RosterStudent>>,
+    /// There is a roster, and they are not on it.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub unknown: bool,
 }
+
+/// What became of what was handed in, or was not.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Status {
+    #[default]
+    Marked,
+    /// Marked, but there was nothing that could be read: a file that is no answer file, a broken one.
+    Unreadable,
+    /// On the roster, and handed nothing in: no points.
+    Missing,
+    /// Handed in again later: not marked, and counted nowhere.
+    Superseded,
+}
+
+impl Status {
+    /// The word that stands in files.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Marked => "marked",
+            Self::Unreadable => "unreadable",
+            Self::Missing => "missing",
+            Self::Superseded => "superseded",
+        }
+    }
+
+    fn is_marked(&self) -> bool {
+        *self == Self::Marked
+    }
+}
+
+/// Findings after which a person has to say whose the mark is, or whether it counts, before it is passed on.
+pub const HOLDS: &[&str] = &[
+    "student.not_on_roster",
+    "student.twice",
+    "intake.other_owner",
+    "intake.other_group",
+    "intake.other_lab",
+];
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OtherVariantRecord {
@@ -201,11 +255,10 @@ impl Record {
         Self {
             submission: submission.id.clone(),
             file: submission.source.name.clone(),
-            students: submission
-                .students
-                .iter()
-                .map(|student| StudentRecord { id: student.id.clone(), name: student.name.clone() })
-                .collect(),
+            status: if submission.readable { Status::Marked } else { Status::Unreadable },
+            superseded_by: None,
+            handed_in: marked.handed_in.clone(),
+            students: marked.students.clone(),
             parameters: marked.parameters.as_ref().map(|values| values.iter().cloned().collect()),
             other_variant: marked.other_variants.iter().map(OtherVariantRecord::of).collect(),
             total: TallyRecord::of(&card.total),
@@ -250,6 +303,16 @@ impl Record {
             readable: submission.readable,
             failed: marked.failed,
         }
+    }
+
+    /// Why no mark of it may be passed on before a person has said more; empty for most.
+    pub fn held(&self) -> impl Iterator<Item = &FindingRecord> {
+        self.findings.iter().filter(|finding| HOLDS.contains(&finding.code.as_str()))
+    }
+
+    /// Whether its points count for its students: not those of an attempt that was superseded.
+    pub fn counts(&self) -> bool {
+        self.status != Status::Superseded
     }
 
     /// A line of `results.jsonl`, without the line end.

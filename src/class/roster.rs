@@ -1,7 +1,9 @@
 use crate::lab::folded_id;
 use crate::source::{self, DecodeError, SourceText, sanitize};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use unicode_normalization::UnicodeNormalization;
 
 /// The students of a course, in the order of the list.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -10,14 +12,46 @@ pub struct Roster {
     /// What to look at: rows without an id, ids that are the same but for spelling.
     pub warnings: Vec<String>,
     by_folded: BTreeMap<String, usize>,
+    /// Other identifiers, names, and numbers of an LMS: to one student, or to several and so to nobody.
+    by_other: BTreeMap<(Key, String), Option<usize>>,
 }
 
-/// A row of the list. Both are somebody's own text: hostile until escaped.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Key {
+    /// SIS id, login, e-mail address.
+    Identifier,
+    /// Words of the full name in any order, without accents.
+    Name,
+    /// The full name run together, family name first or last.
+    RunTogether,
+    Canvas,
+    Moodle,
+}
+
+/// A row of the list. All of it is somebody's own text: hostile until escaped.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RosterStudent {
     pub id: String,
     pub name: String,
+    /// Canvas' number of the user.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub canvas_id: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sis_user_id: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sis_login_id: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub section: Option<String>,
+    /// Moodle's number of the participant, without the word before it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moodle_id: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub email: Option<String>,
+    /// Names of the groups they are in, with commas between.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub group: Option<String>,
     /// Line in the file, from 1.
+    #[serde(skip)]
     pub line: u64,
 }
 
@@ -58,9 +92,19 @@ const ID: &[&str] = &[
     "username",
     "orgdefinedid",
 ];
+/// What stands in for an id where there is none: Canvas' gradebook, Moodle's grading worksheet and list of participants.
+const INSTEAD_OF_ID: &[&str] =
+    &["sisuserid", "sisloginid", "loginid", "username", "emailaddress", "email", "identifier"];
 const NAME: &[&str] = &["name", "fullname", "studentname", "student", "displayname"];
 const FIRST: &[&str] = &["firstname", "givenname", "forename"];
 const LAST: &[&str] = &["lastname", "surname", "familyname"];
+const CANVAS_ID: &[&str] = &["canvasid", "canvasuserid"];
+const SIS_USER_ID: &[&str] = &["sisuserid", "sisid"];
+const SIS_LOGIN_ID: &[&str] = &["sisloginid", "loginid", "username", "login"];
+const SECTION: &[&str] = &["section", "sections"];
+const MOODLE_ID: &[&str] = &["moodleid", "identifier", "participant", "participantnumber"];
+const EMAIL: &[&str] = &["email", "emailaddress", "mail"];
+const GROUP: &[&str] = &["group", "groups", "groupname", "team"];
 
 impl Roster {
     pub fn load(path: &Path) -> Result<Self, RosterError> {
@@ -86,28 +130,54 @@ impl Roster {
             what: sanitize(&error.to_string()).to_string(),
         };
         let header = reader.headers().map_err(|error| not_csv(&error))?.clone();
-        let column = |names: &[&str]| {
-            let folded: Vec<String> = header.iter().map(folded_id).collect();
-            names.iter().find_map(|name| folded.iter().position(|column| column == name))
+        let folded: Vec<String> = header.iter().map(folded_id).collect();
+        let column =
+            |names: &[&str]| names.iter().find_map(|name| folded.iter().position(|column| column == name));
+        // Canvas calls its own number `ID`, and numbers nobody outside knows are no ids of students.
+        let of_canvas = column(&["student"]).is_some() && column(&["sisuserid", "sisloginid"]).is_some();
+        let ids: Vec<usize> = match of_canvas {
+            true => INSTEAD_OF_ID.iter().chain(&["id"]).filter_map(|name| column(&[name])).collect(),
+            false => column(ID)
+                .into_iter()
+                .chain(INSTEAD_OF_ID.iter().filter_map(|name| column(&[name])))
+                .collect(),
         };
-        let Some(id) = column(ID) else {
+        if ids.is_empty() {
             let found: Vec<String> =
                 header.iter().take(12).map(|one| format!("`{}`", clipped(one, MOST_OF_A_NAME))).collect();
             return Err(RosterError::NoId { name, found: sanitize(&found.join(", ")).to_string() });
-        };
+        }
+        let canvas_id = if of_canvas { column(&["id"]) } else { column(CANVAS_ID) };
         let (whole, first, last) = (column(NAME), column(FIRST), column(LAST));
+        let others = [SIS_USER_ID, SIS_LOGIN_ID, SECTION, MOODLE_ID, EMAIL, GROUP].map(column);
         let mut roster = Self::default();
         for record in reader.records() {
             let record = record.map_err(|error| not_csv(&error))?;
             let line = record.position().map_or(0, csv::Position::line);
-            let cell = |column: Option<usize>| column.and_then(|at| record.get(at)).unwrap_or_default();
+            let cell =
+                |column: Option<usize>| column.and_then(|at| record.get(at)).unwrap_or_default().trim();
             let name = match cell(whole) {
                 "" => [cell(first), cell(last)].join(" ").trim().to_owned(),
+                name if of_canvas => given_name_first(name),
                 name => name.to_owned(),
             };
+            if of_canvas && is_no_student(cell(whole), cell(canvas_id)) {
+                continue;
+            }
+            let id = ids.iter().map(|at| cell(Some(*at))).find(|id| !id.is_empty()).unwrap_or_default();
+            let kept = |text: &str| (!text.is_empty()).then(|| clipped(text, MOST_OF_A_NAME));
+            let [sis_user_id, sis_login_id, section, moodle_id, email, group] =
+                others.map(|at| kept(cell(at)));
             roster.add(RosterStudent {
-                id: clipped(cell(Some(id)), MOST_OF_AN_ID),
+                id: clipped(id, MOST_OF_AN_ID),
                 name: clipped(&name, MOST_OF_A_NAME),
+                canvas_id: kept(cell(canvas_id)),
+                sis_user_id,
+                sis_login_id,
+                section,
+                moodle_id: moodle_id.map(|id| id.rsplit(' ').next().unwrap_or_default().to_owned()),
+                email,
+                group,
                 line,
             });
             if roster.students.len() >= MOST_STUDENTS {
@@ -150,13 +220,99 @@ impl Roster {
                 self.by_folded.insert(folded, self.students.len());
             }
         }
+        self.index(&student);
         self.students.push(student);
     }
 
-    /// Whether an id is on the list, however it is spelled.
-    pub fn has(&self, id: &str) -> bool {
-        self.by_folded.contains_key(&folded_id(id))
+    fn index(&mut self, student: &RosterStudent) {
+        let mut keys = Vec::new();
+        for other in [&student.sis_user_id, &student.sis_login_id, &student.email].into_iter().flatten() {
+            keys.push((Key::Identifier, folded_id(other)));
+        }
+        let words = name_words(&student.name);
+        for turn in 0..words.len() {
+            keys.push((Key::RunTogether, [&words[turn..], &words[..turn]].concat().concat()));
+        }
+        keys.push((Key::Name, sorted(words).join(" ")));
+        keys.extend(student.canvas_id.iter().map(|id| (Key::Canvas, id.clone())));
+        keys.extend(student.moodle_id.iter().map(|id| (Key::Moodle, id.clone())));
+        keys.sort();
+        keys.dedup();
+        let at = self.students.len();
+        for key in keys.into_iter().filter(|(_, text)| !text.is_empty()) {
+            self.by_other.entry(key).and_modify(|other| *other = None).or_insert(Some(at));
+        }
     }
+
+    /// The student of an id, however it is spelled; or of an SIS id, a login or an e-mail address that only one has.
+    pub fn find(&self, id: &str) -> Option<&RosterStudent> {
+        let folded = folded_id(id);
+        match self.by_folded.get(&folded) {
+            Some(at) => self.students.get(*at),
+            None => self.other(Key::Identifier, folded),
+        }
+    }
+
+    /// The only student of this name, its words in any order.
+    pub fn find_by_name(&self, name: &str) -> Option<&RosterStudent> {
+        self.other(Key::Name, sorted(name_words(name)).join(" "))
+    }
+
+    /// The only student whose name, run together, is this: as Canvas writes it.
+    pub fn find_by_letters(&self, letters: &str) -> Option<&RosterStudent> {
+        self.other(Key::RunTogether, name_words(letters).concat())
+    }
+
+    pub fn find_by_canvas_id(&self, id: &str) -> Option<&RosterStudent> {
+        self.other(Key::Canvas, id.to_owned())
+    }
+
+    pub fn find_by_moodle_id(&self, id: &str) -> Option<&RosterStudent> {
+        self.other(Key::Moodle, id.to_owned())
+    }
+
+    /// Who is in a group of this name; `_` counts as a space, and Canvas leaves out what is no letter or digit.
+    pub fn group(&self, name: &str) -> Vec<&RosterStudent> {
+        let wanted = folded_id(name);
+        let is_in = |student: &&RosterStudent| {
+            student.group.iter().flat_map(|groups| groups.split(',')).any(|group| folded_id(group) == wanted)
+        };
+        if wanted.is_empty() { Vec::new() } else { self.students.iter().filter(is_in).collect() }
+    }
+
+    fn other(&self, key: Key, text: String) -> Option<&RosterStudent> {
+        self.students.get((*self.by_other.get(&(key, text))?)?)
+    }
+}
+
+/// Words of a name in small letters, without accents and signs: what is left when systems have passed it on.
+pub fn name_words(name: &str) -> Vec<String> {
+    let plain = |word: &str| -> String {
+        let letters = word.nfkd().filter(|c| c.is_alphanumeric()).collect::<String>();
+        letters.to_lowercase()
+    };
+    let words = name.split(|c: char| c.is_whitespace() || matches!(c, ',' | '_' | '.' | '-'));
+    words.map(plain).filter(|word| !word.is_empty()).collect()
+}
+
+fn sorted(mut words: Vec<String>) -> Vec<String> {
+    words.sort();
+    words
+}
+
+/// `Doe, Jane` as Canvas sorts it.
+fn given_name_first(name: &str) -> String {
+    match name.split_once(',') {
+        Some((family, given)) if !given.contains(',') => format!("{} {}", given.trim(), family.trim()),
+        _ => name.to_owned(),
+    }
+}
+
+/// Rows of Canvas' gradebook that are about no student: points possible, how marks are posted, and the test student.
+fn is_no_student(name: &str, canvas_id: &str) -> bool {
+    (name.is_empty() && canvas_id.is_empty())
+        || name.eq_ignore_ascii_case("points possible")
+        || name.eq_ignore_ascii_case("student, test")
 }
 
 /// What separates the columns: the one of these that the first line has most of, outside quotes.

@@ -20,15 +20,13 @@ use crate::reference::Reference;
 use crate::report::{ReportError, ReportKit};
 use crate::source::Finding;
 use rayon::prelude::*;
-use std::io::{self, Read};
+use std::io;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Submissions in memory at a time; results are written in order after each such group.
 const GROUP: usize = 64;
-/// Answer files are refused far below this; reading stops here.
-const READ_LIMIT: u64 = 1 << 20;
 /// Stack of a worker: formulas and prose nest, within limits, on it.
 const STACK_BYTES: usize = 16 << 20;
 
@@ -72,18 +70,6 @@ pub enum ClassError {
     Report(#[from] ReportError),
     #[error("no worker threads could be started: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
-}
-
-/// At most a little more than an answer file may hold, so that a huge one is refused without being read.
-///
-/// Errors: also for what is no plain file; a pipe could keep us waiting for ever.
-pub fn read_capped(path: &Path) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    if !std::fs::metadata(path)?.is_file() {
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, "not a plain file"));
-    }
-    std::fs::File::open(path)?.take(READ_LIMIT).read_to_end(&mut bytes)?;
-    Ok(bytes)
 }
 
 /// Marks every file and writes `index.html`, `reports/…`, `gradebook.csv`, `results.jsonl` into `job.out`.
@@ -191,12 +177,12 @@ struct Slip {
 }
 
 /// Uses again what was kept, if this class says the same of it; else it is to be marked.
-fn settle(
-    desk: &Desk<'_>,
+fn settle<'a>(
+    desk: &Desk<'a>,
     part: Part,
     findings: Vec<Finding>,
     report: String,
-    to_mark: &mut Vec<Named>,
+    to_mark: &mut Vec<Named<'a>>,
 ) -> Slip {
     let said = Fingerprint::default().with_shown(&findings).hex();
     let source = Arc::clone(&part.source);
@@ -215,7 +201,9 @@ fn settle(
         }
         Found::Read { mut submission, numbers } => {
             submission.findings.extend(findings);
-            to_mark.push(Named { submission: *submission, numbers, report });
+            if let Some(file) = desk.job.files.get(source.place) {
+                to_mark.push(Named { submission: *submission, numbers, file, report });
+            }
             Slip { source, said, kept: None }
         }
     }

@@ -51,10 +51,10 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let given = arguments.marks.as_deref().map(|path| load_marks(path, &lab)).transpose()?;
     let marks = given.as_ref().map(|(marks, _)| marks);
     let roster = arguments.roster.as_deref().map(load_roster).transpose()?;
-    let files = find_answer_files(&arguments.paths, arguments.marks.as_deref())?;
+    let intake = find_answer_files(&arguments.paths, arguments.marks.as_deref())?;
     let catalogue = Catalogue::new(&lab, &reference);
     let kit = ReportKit::new(&lab, &reference)?;
-    let bar = progress_bar(files.len());
+    let bar = progress_bar(intake.files.len());
     let job = ClassJob {
         lab: &lab,
         reference: &reference,
@@ -62,7 +62,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         kit: &kit,
         marks,
         roster: roster.as_ref(),
-        files: &files,
+        files: &intake.files,
         out: &arguments.out,
         threads: arguments.threads,
         from_scratch: arguments.from_scratch,

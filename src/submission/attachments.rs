@@ -66,7 +66,7 @@ impl Attachments for Folder {
 }
 
 /// A relative path of plain names; `\` counts as `/`, since reports come from Windows too.
-fn plain_path(file_name: &str) -> Result<PathBuf, AttachmentError> {
+pub fn plain_path(file_name: &str) -> Result<PathBuf, AttachmentError> {
     let name = file_name.trim().replace('\\', "/");
     if name.is_empty() || name.len() > 255 || name.contains(|c: char| c.is_control()) {
         return Err(AttachmentError::BadName);

@@ -43,7 +43,7 @@ pub(crate) fn read_formula(text: &str) -> Option<TypedFormula> {
 pub use answer::{
     Answer, AnswerValue, Decimal, Figure, FinalValue, Series, Student, Submission, TypedComplex, Unreadable,
 };
-pub use attachments::{AttachmentError, Attachments, Folder, MAX_ATTACHMENT_BYTES, NoFiles};
+pub use attachments::{AttachmentError, Attachments, Folder, MAX_ATTACHMENT_BYTES, NoFiles, plain_path};
 pub use own_claims::{ContradictedClaim, claims_about, contradicted_claims};
 pub use read::{MAX_PROSE_BYTES, read};
 pub use self_check::self_check;

@@ -13,6 +13,8 @@ mod hard_polynomials;
 mod hard_responses;
 mod hard_table;
 mod held_ball;
+mod hostile_archives;
+mod intake;
 mod laws;
 mod ledger;
 mod marking_examples;
