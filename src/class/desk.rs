@@ -1,5 +1,5 @@
 use super::fingerprint::{Fingerprint, fingerprint};
-use super::intake::{AnswerFile, NotRead, settle_people, student_records};
+use super::intake::{AnswerFile, NotRead, answers_another_lab, settle_people, student_records};
 use super::kept::{Entry, EntryPart, Kept, report_is_there};
 use super::marked::{Marked, our_failure};
 use super::new_file::NewFile;
@@ -78,7 +78,7 @@ pub struct Desk<'a> {
 impl Desk<'_> {
     /// The parts of an answer file, as an earlier run left them, or read.
     pub fn look(&self, place: usize) -> Vec<Part> {
-        let Some(file) = self.job.files.get(place) else { return Vec::new() };
+        let Some(file) = self.job.intake.files.get(place) else { return Vec::new() };
         let content = file.read_capped();
         let key = self.key(file, &content);
         self.kept_parts(place, file, &key).unwrap_or_else(|| self.read_parts(place, file, &content, key))
@@ -86,7 +86,7 @@ impl Desk<'_> {
 
     /// The same part read, whatever was kept of it: another file of the class has changed what is said of it.
     pub fn look_again(&self, part: &Part) -> Option<Part> {
-        let file = self.job.files.get(part.source.place)?;
+        let file = self.job.intake.files.get(part.source.place)?;
         let parts = self.read_parts(part.source.place, file, &file.read_capped(), part.source.key.clone());
         parts.into_iter().nth(part.number)
     }
@@ -94,7 +94,8 @@ impl Desk<'_> {
     fn key(&self, file: &AnswerFile, content: &Result<Vec<u8>, NotRead>) -> String {
         let Some(run) = &self.run else { return String::new() };
         let run = run.clone().with(&file.name).with(&file.id).with([u8::from(file.followed)]);
-        let run = run.with_shown(&file.handed_in).with_shown(&file.only_others).with_shown(&file.beside_others);
+        let run =
+            run.with_shown(&file.handed_in).with_shown(&file.only_others).with_shown(&file.beside_others);
         match content {
             Ok(bytes) => run.with(bytes),
             Err(why) => run.with("not read").with(why.to_string()),
@@ -132,7 +133,13 @@ impl Desk<'_> {
         parts.collect()
     }
 
-    fn read_parts(&self, place: usize, file: &AnswerFile, content: &Result<Vec<u8>, NotRead>, key: String) -> Vec<Part> {
+    fn read_parts(
+        &self,
+        place: usize,
+        file: &AnswerFile,
+        content: &Result<Vec<u8>, NotRead>,
+        key: String,
+    ) -> Vec<Part> {
         let noted = Noted { inside: file.attachments(), asked: Mutex::default() };
         let (submission, numbers) = self.read(file, content, &noted);
         let asked = noted.asked.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -176,7 +183,7 @@ impl Desk<'_> {
         let lab = self.job.lab;
         let read = |sheet: &AnswerSheet| {
             let mut submission = file.read_from(content, sheet, attachments);
-            settle_people(&mut submission, &file.handed_in, self.job.roster);
+            settle_people(&mut submission, file, sheet, self.job.roster);
             submission
         };
         let mut submission = read(&lab.sheet);
@@ -266,6 +273,9 @@ impl Desk<'_> {
         marks: Option<&HandMarks>,
     ) -> Result<Scorecard, Finding> {
         let job = self.job;
+        if answers_another_lab(submission, &job.lab.sheet) {
+            return Ok(leave_to_a_person(job.lab, submission, marks, "The file answers another lab."));
+        }
         match (numbers, bench) {
             (Numbers::Own { members, .. }, Some(Ok(own))) => {
                 if members.is_empty() {

@@ -20,7 +20,7 @@ impl<W: Write> Gradebook<W> {
         header.extend(lab.observed.iter().map(|row| format!("observed.{} [{}]", row.id, row.points)));
         header.extend(lab.cover.rows.iter().map(|row| format!("cover.{} [{}]", row.id, row.points)));
         header.push(format!("cover.total [{}]", lab.cover.total));
-        header.extend(["to_review", "findings", "report"].map(str::to_owned));
+        header.extend(["to_review", "findings", "status", "late", "report"].map(str::to_owned));
         writer.write_record(&header)?;
         Ok(Self { writer })
     }
@@ -43,6 +43,8 @@ impl<W: Write> Gradebook<W> {
             row.push(shown(record.cover_total));
             row.push(to_review.clone());
             row.push(record.findings.len().to_string());
+            row.push(record.status.as_str().to_owned());
+            row.push(if record.is_late() { "yes".to_owned() } else { String::new() });
             row.push(disarmed(&record.report));
             self.writer.write_record(&row)?;
         }

@@ -17,12 +17,13 @@ mod run;
 mod run_records;
 mod statistics;
 mod students_seen;
+mod without_marks;
 mod workplace;
 
 pub use handouts::{HandoutError, Handouts, write_handouts};
 pub use intake::{
-    AnswerFile, Archive, ArchiveError, Aside, HandedIn, Intake, IntakeError, Lms, NotRead, Place, WhyAside,
-    find_answer_files, read_capped,
+    AnswerFile, Archive, ArchiveError, Aside, HandedIn, Intake, IntakeError, Lms, NotRead, Place, Superseded,
+    WhyAside, find_answer_files, read_capped,
 };
 pub use marked::Marked;
 pub use numbers::read_with_own_values;

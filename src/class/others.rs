@@ -51,7 +51,7 @@ impl Others {
                 |one| one.students.into_iter().map(|student| student.id).collect(),
             )
         };
-        let in_class: Vec<String> = job.files.par_iter().flat_map_iter(students).collect();
+        let in_class: Vec<String> = job.intake.files.par_iter().flat_map_iter(students).collect();
         let listed = job.roster.iter().flat_map(|roster| &roster.students).map(|student| student.id.clone());
         let mut seen = BTreeSet::new();
         for id in in_class.into_iter().chain(listed) {

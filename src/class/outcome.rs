@@ -9,6 +9,16 @@ pub struct Outcome {
     /// The run was stopped before the end; nothing else here is of the whole class then.
     pub stopped: bool,
     pub unreadable: usize,
+    /// Students of the roster who handed nothing in.
+    pub missing: usize,
+    /// Submissions that came too late.
+    pub late: usize,
+    /// Answer files that do not count, since others of the same owners do.
+    pub superseded: usize,
+    /// Other files that are not marked.
+    pub aside: usize,
+    /// Submissions of which a person has to say first whose they are, or whether they count.
+    pub held: usize,
     /// Submissions that polemark itself failed on.
     pub failed: usize,
     /// Submissions with something a person should look at.

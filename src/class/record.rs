@@ -1,7 +1,9 @@
-use super::{HandedIn, Marked, OtherVariant, RosterStudent};
+use super::intake::{Superseded, student_records};
+use super::{HandedIn, Marked, OtherVariant, Roster, RosterStudent};
 use crate::grading::{Cause, Conflict, Diagnosis, FollowThrough, ItemScore, Ledger, Tally, Verdict};
 use crate::lab::{LabDefinition, Points};
 use crate::source::Position;
+use crate::submission::Submission;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -106,6 +108,7 @@ pub const HOLDS: &[&str] = &[
     "intake.other_owner",
     "intake.other_group",
     "intake.other_lab",
+    "intake.several_files",
 ];
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -305,9 +308,82 @@ impl Record {
         }
     }
 
+    /// Of somebody on the roster who handed nothing in.
+    pub fn missing(student: &RosterStudent, lab: &LabDefinition) -> Self {
+        let person = StudentRecord {
+            id: student.id.clone(),
+            name: student.name.clone(),
+            roster: Some(Box::new(student.clone())),
+            unknown: false,
+        };
+        Self { status: Status::Missing, students: vec![person], ..Self::without_marks(lab) }
+    }
+
+    /// Of an answer file that does not count. `by` is the name of the one that does.
+    pub fn superseded(
+        one: &Superseded,
+        by: &str,
+        submission: &Submission,
+        roster: Option<&Roster>,
+        lab: &LabDefinition,
+    ) -> Self {
+        Self {
+            submission: one.file.id.clone(),
+            file: one.file.name.clone(),
+            status: Status::Superseded,
+            superseded_by: Some(one.by.clone()),
+            handed_in: Some(one.file.handed_in.clone()),
+            students: student_records(submission, roster),
+            findings: vec![FindingRecord::of(&one.finding(by), None)],
+            readable: submission.readable,
+            ..Self::without_marks(lab)
+        }
+    }
+
+    /// No points, no criteria, no report.
+    fn without_marks(lab: &LabDefinition) -> Self {
+        let nothing = |possible| TallyRecord { earned: Points::ZERO, possible, provisional: Points::ZERO };
+        let questions = lab.questions.iter();
+        let empty = |id: &str, possible| BoxRecord { id: id.to_owned(), earned: None, possible };
+        Self {
+            submission: String::new(),
+            file: String::new(),
+            status: Status::Marked,
+            superseded_by: None,
+            handed_in: None,
+            students: Vec::new(),
+            parameters: None,
+            other_variant: Vec::new(),
+            total: nothing(lab.questions.iter().map(|question| question.points).sum()),
+            questions: questions
+                .map(|question| QuestionRecord { id: question.id.clone(), tally: nothing(question.points) })
+                .collect(),
+            items: Vec::new(),
+            observed: lab.observed.iter().map(|row| empty(&row.id, row.points)).collect(),
+            cover: lab.cover.rows.iter().map(|row| empty(&row.id, row.points)).collect(),
+            cover_total: None,
+            ledger: LedgerRecord::default(),
+            findings: Vec::new(),
+            report: String::new(),
+            readable: true,
+            failed: false,
+        }
+    }
+
     /// Why no mark of it may be passed on before a person has said more; empty for most.
     pub fn held(&self) -> impl Iterator<Item = &FindingRecord> {
         self.findings.iter().filter(|finding| HOLDS.contains(&finding.code.as_str()))
+    }
+
+    /// What else was noted about how it was handed in.
+    pub fn intake_notes(&self) -> impl Iterator<Item = &FindingRecord> {
+        let held = |code: &str| HOLDS.contains(&code);
+        self.findings.iter().filter(move |one| one.code.starts_with("intake.") && !held(&one.code))
+    }
+
+    /// Whether the LMS says that it came too late.
+    pub fn is_late(&self) -> bool {
+        self.handed_in.as_ref().is_some_and(|handed_in| handed_in.late)
     }
 
     /// Whether its points count for its students: not those of an attempt that was superseded.

@@ -2,7 +2,7 @@ use super::Roster;
 use super::desk::{Desk, Found, Named, Part, SourceFile};
 use super::fingerprint::Fingerprint;
 use super::gradebook::Gradebook;
-use super::intake::{AnswerFile, UniqueNames};
+use super::intake::{Intake, UniqueNames};
 use super::kept::{Kept, is_as_it_was, run_fingerprint};
 use super::marked::Marked;
 use super::new_file::NewFile;
@@ -13,6 +13,7 @@ use super::record::Record;
 use super::run_records::{RunRecords, Written};
 use super::statistics::Statistics;
 use super::students_seen::StudentsSeen;
+use super::without_marks::{Absentees, superseded_records};
 use super::workplace::Workplace;
 use crate::grading::{Catalogue, HandMarksFile};
 use crate::lab::LabDefinition;
@@ -39,7 +40,7 @@ pub struct ClassJob<'a> {
     pub marks: Option<&'a HandMarksFile>,
     /// The students of the course, where they are known.
     pub roster: Option<&'a Roster>,
-    pub files: &'a [AnswerFile],
+    pub intake: &'a Intake,
     pub out: &'a Path,
     /// Worker threads; 0 is one a core.
     pub threads: usize,
@@ -104,17 +105,18 @@ pub fn grade_class(
         run: rests_on(job, &others),
         growing: workplace.running(),
     };
+    let mut absentees = Absentees::default();
     let mut done = Progress { done: 0, kept: 0 };
 
-    for first in (0..job.files.len()).step_by(GROUP) {
-        let group = first..job.files.len().min(first + GROUP);
+    for first in (0..job.intake.files.len()).step_by(GROUP) {
+        let group = first..job.intake.files.len().min(first + GROUP);
         let parts: Vec<Part> =
             pool.install(|| group.clone().into_par_iter().flat_map_iter(|place| desk.look(place)).collect());
         let mut to_mark = Vec::new();
         let mut slips = Vec::new();
         // Names and what is said of one beside others depend on who came before, so they are given in order.
         for part in parts {
-            let file = job.files.get(part.source.place).map_or("", |file| file.name.as_str());
+            let file = job.intake.files.get(part.source.place).map_or("", |file| file.name.as_str());
             let findings = seen.add(&part.students, file);
             let report = format!("reports/{}.html", names.claim(&report_stem(&part)));
             slips.push(settle(&desk, part, findings, report, &mut to_mark));
@@ -135,6 +137,7 @@ pub fn grade_class(
             records.add(&slip.source, slip.said, &written)?;
             gradebook.add(&written.record)?;
             statistics.add(&written.record);
+            absentees.add(&written.record);
         }
         records.flush()?;
         done.done += group.len();
@@ -144,6 +147,18 @@ pub fn grade_class(
         }
     }
 
+    for record in superseded_records(job) {
+        absentees.add(&record);
+        records.add_unmarked(&record)?;
+        statistics.add(&record);
+    }
+    for record in absentees.records(job) {
+        records.add_unmarked(&record)?;
+        gradebook.add(&record)?;
+        statistics.add(&record);
+    }
+    statistics.set_aside(&job.intake.aside);
+    statistics.given_twice(&seen.given_twice());
     gradebook.finish().map_err(|error| ClassError::Write { path: gradebook_file.path.clone(), error })?;
     let mut outcome = statistics.outcome();
     outcome.kept = records.kept();
@@ -161,6 +176,7 @@ pub fn grade_class(
     workplace.finish()?;
     Ok(outcome)
 }
+
 /// Who it is from, as far as could be read; the file's name otherwise.
 fn report_stem(part: &Part) -> String {
     let ids: Vec<&str> = part.students.iter().map(|s| s.id.as_str()).filter(|id| !id.is_empty()).collect();
@@ -201,7 +217,7 @@ fn settle<'a>(
         }
         Found::Read { mut submission, numbers } => {
             submission.findings.extend(findings);
-            if let Some(file) = desk.job.files.get(source.place) {
+            if let Some(file) = desk.job.intake.files.get(source.place) {
                 to_mark.push(Named { submission: *submission, numbers, file, report });
             }
             Slip { source, said, kept: None }

@@ -56,7 +56,7 @@ impl<'a> RunRecords<'a> {
         self.kept += usize::from(written.kept);
         if self.open.as_ref().is_none_or(|(place, _)| *place != source.place) {
             self.close()?;
-            let name = self.job.files.get(source.place).map_or("", |file| file.name.as_str());
+            let name = self.job.intake.files.get(source.place).map_or("", |file| file.name.as_str());
             let entry = Entry {
                 name: fingerprint(name),
                 key: source.key.clone(),
@@ -71,6 +71,14 @@ impl<'a> RunRecords<'a> {
             entry.parts.push(part);
         }
         Ok(())
+    }
+
+    /// A line for what is not marked, and so is nothing that the next run could use again.
+    pub fn add_unmarked(&mut self, record: &Record) -> Result<(), ClassError> {
+        self.close()?;
+        let line = record.to_line()?;
+        self.at += line.len() as u64 + 1;
+        self.results.line(&line)
     }
 
     /// Submissions of which nothing had changed.

@@ -1,8 +1,11 @@
+use super::intake::Aside;
 use super::outcome::Outcome;
-use super::record::{ItemRecord, Record};
+use super::record::{ItemRecord, Record, Status};
 use crate::english::listed;
 use crate::lab::{LabDefinition, Points};
-use crate::report::{ClassRow, ClassSummary, QuestionMean, ReviewEntry, item_anchor};
+use crate::report::{
+    ClassRow, ClassSummary, IntakeEntry, IntakeKind, QuestionMean, ReviewEntry, item_anchor,
+};
 use crate::submission::Student;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,6 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Statistics {
     rows: Vec<ClassRow>,
     review: Vec<ReviewEntry>,
+    intake: Vec<IntakeEntry>,
     /// Points earned by all, per question of the lab.
     earned: Vec<Points>,
     student_ids: BTreeSet<String>,
@@ -27,6 +31,7 @@ impl Statistics {
         Self {
             rows: Vec::new(),
             review: Vec::new(),
+            intake: Vec::new(),
             earned: vec![Points::ZERO; lab.questions.len()],
             student_ids: BTreeSet::new(),
             groups: BTreeSet::new(),
@@ -43,6 +48,20 @@ impl Statistics {
     }
 
     pub fn add(&mut self, record: &Record) {
+        self.look_at_intake(record);
+        match record.status {
+            Status::Marked | Status::Unreadable => {}
+            Status::Superseded => {
+                self.outcome.superseded += 1;
+                return;
+            }
+            Status::Missing => {
+                self.outcome.missing += 1;
+                self.rows.push(class_row(record));
+                return;
+            }
+        }
+        self.outcome.late += usize::from(record.is_late());
         for (sum, question) in self.earned.iter_mut().zip(&record.questions) {
             *sum += question.tally.earned;
         }
@@ -59,18 +78,50 @@ impl Statistics {
         let groups = record.items.iter().filter_map(|item| Some((item.id.clone(), item.alike.clone()?)));
         self.groups.extend(groups);
         self.outcome.to_review += usize::from(self.review.len() > waiting);
-        self.rows.push(ClassRow {
-            students: students(record),
-            file: record.file.clone(),
-            report: record.report.clone(),
-            numbers: numbers_words(record),
-            earned: record.total.earned,
-            possible: record.total.possible,
-            provisional: record.total.provisional,
-            findings: record.findings.len(),
-            cover_total: record.cover_total,
-            readable: record.readable,
+        self.rows.push(class_row(record));
+    }
+
+    /// Notes files that are not marked.
+    pub fn set_aside(&mut self, aside: &[Aside]) {
+        self.outcome.aside = aside.len();
+        let entries = aside.iter().map(|one| IntakeEntry {
+            who: one.name.clone(),
+            words: one.why.words().to_owned(),
+            link: String::new(),
+            kind: IntakeKind::Aside,
         });
+        self.intake.extend(entries);
+    }
+
+    /// Notes (id, files) of ids that several files give.
+    pub fn given_twice(&mut self, ids: &[(String, Vec<String>)]) {
+        let entries = ids.iter().map(|(id, files)| IntakeEntry {
+            who: id.clone(),
+            words: format!("Several files give this id: {}.", listed(files, "and")),
+            link: String::new(),
+            kind: IntakeKind::Held,
+        });
+        self.intake.extend(entries);
+    }
+
+    /// What a person should know of how it was handed in.
+    fn look_at_intake(&mut self, record: &Record) {
+        let kind = match record.status {
+            Status::Superseded => IntakeKind::Superseded,
+            _ => IntakeKind::Held,
+        };
+        let said: Vec<&str> = match record.status {
+            Status::Superseded => record.findings.iter().map(|finding| finding.message.as_str()).collect(),
+            _ => record.held().chain(record.intake_notes()).map(|finding| finding.message.as_str()).collect(),
+        };
+        self.outcome.held += usize::from(kind == IntakeKind::Held && record.held().next().is_some());
+        if !said.is_empty() {
+            let who = match record.students.is_empty() {
+                true => record.file.clone(),
+                false => names(record),
+            };
+            self.intake.push(IntakeEntry { who, words: said.join(" "), link: record.report.clone(), kind });
+        }
     }
 
     pub fn outcome(&self) -> Outcome {
@@ -89,7 +140,7 @@ impl Statistics {
                 possible: question.points,
             })
             .collect();
-        ClassSummary { rows: self.rows, questions, review: self.review }
+        ClassSummary { rows: self.rows, questions, review: self.review, intake: self.intake }
     }
 
     /// Which of `ids` nobody in the class has.
@@ -111,6 +162,30 @@ impl Statistics {
     fn count(&self) -> f64 {
         self.outcome.submissions.max(1) as f64
     }
+}
+
+fn class_row(record: &Record) -> ClassRow {
+    ClassRow {
+        students: students(record),
+        file: record.file.clone(),
+        report: record.report.clone(),
+        numbers: numbers_words(record),
+        earned: record.total.earned,
+        possible: record.total.possible,
+        provisional: record.total.provisional,
+        findings: record.findings.len(),
+        cover_total: record.cover_total,
+        readable: record.readable,
+        missing: record.status == Status::Missing,
+        late: record.is_late(),
+    }
+}
+
+/// Names of the students, ids where there are none.
+fn names(record: &Record) -> String {
+    let names =
+        record.students.iter().map(|s| if s.name.is_empty() { s.id.as_str() } else { s.name.as_str() });
+    names.collect::<Vec<_>>().join(", ")
 }
 
 fn students(record: &Record) -> Vec<Student> {
@@ -136,9 +211,7 @@ fn review_entries<'a>(
     record: &'a Record,
     titles: &'a BTreeMap<String, String>,
 ) -> impl Iterator<Item = ReviewEntry> + 'a {
-    let names =
-        record.students.iter().map(|s| if s.name.is_empty() { s.id.as_str() } else { s.name.as_str() });
-    let student = names.collect::<Vec<_>>().join(", ");
+    let student = names(record);
     record.to_review().map(move |(item, review)| ReviewEntry {
         why: review.why.clone(),
         alike: item.alike.clone(),

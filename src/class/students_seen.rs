@@ -1,3 +1,4 @@
+use crate::lab::folded_id;
 use crate::source::{Finding, Severity, sanitize};
 use crate::submission::Student;
 use std::collections::BTreeMap;
@@ -5,7 +6,8 @@ use std::collections::BTreeMap;
 /// Which student ids have come up, and in which files: two files under one id are for a person to sort out.
 #[derive(Debug, Default)]
 pub struct StudentsSeen {
-    files: BTreeMap<String, Vec<String>>,
+    /// By the folded id: as it was first spelled, and where.
+    files: BTreeMap<String, (String, Vec<String>)>,
 }
 
 impl StudentsSeen {
@@ -13,7 +15,11 @@ impl StudentsSeen {
     pub fn add(&mut self, students: &[Student], file: &str) -> Vec<Finding> {
         let mut findings = Vec::new();
         for student in students {
-            let files = self.files.entry(student.id.clone()).or_default();
+            let folded = match folded_id(&student.id) {
+                folded if folded.is_empty() => student.id.clone(),
+                folded => folded,
+            };
+            let (_, files) = self.files.entry(folded).or_insert_with(|| (student.id.clone(), Vec::new()));
             if !files.is_empty() {
                 findings.push(Finding {
                     severity: Severity::Warning,
@@ -33,7 +39,6 @@ impl StudentsSeen {
 
     /// (id, files) of every id that more than one file gives.
     pub fn given_twice(&self) -> Vec<(String, Vec<String>)> {
-        let twice = self.files.iter().filter(|(_, files)| files.len() > 1);
-        twice.map(|(id, files)| (id.clone(), files.clone())).collect()
+        self.files.values().filter(|(_, files)| files.len() > 1).cloned().collect()
     }
 }

@@ -17,10 +17,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Mark answer files: a report for each, a class page, a gradebook.
 #[derive(clap::Args)]
 #[command(
-    after_long_help = "Examples:\n  polemark grade submissions --out out\n  polemark grade a.yaml b.yaml --out out --lab labs/mine/lab.yaml --marks marks.yaml\n\nExit code: 0 when every file got its report (an unreadable file too: it says what is wrong), 1 with --strict when a file could not be read, 2 when polemark failed."
+    after_long_help = "Examples:\n  polemark grade submissions --out out\n  polemark grade submissions.zip --roster gradebook.csv --out out --lab labs/mine/lab.yaml --marks marks.yaml\n\nExit code: 0 when every file got its report (an unreadable file too: it says what is wrong), 1 with --strict when a file could not be read, 2 when polemark failed."
 )]
 pub struct Arguments {
-    /// Answer files, or folders of them.
+    /// Answer files, folders of them, or zip archives as Moodle and Canvas hand them out.
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
     /// Folder for index.html, reports/, gradebook.csv and results.jsonl; made when it is not there.
@@ -32,7 +32,8 @@ pub struct Arguments {
     /// Marks given by a person: viva, observed rows, changed items; never written to.
     #[arg(long, value_name = "FILE")]
     marks: Option<PathBuf>,
-    /// CSV of the course's students (columns id, name): ids that are not on it are pointed out.
+    /// The course's students: a CSV with columns id and name, Canvas' gradebook or Moodle's grading worksheet. Who is not on it
+    /// is pointed out, and who handed nothing in gets a row.
     #[arg(long, value_name = "FILE")]
     roster: Option<PathBuf>,
     /// Worker threads, 0 for one a core.
@@ -51,7 +52,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let given = arguments.marks.as_deref().map(|path| load_marks(path, &lab)).transpose()?;
     let marks = given.as_ref().map(|(marks, _)| marks);
     let roster = arguments.roster.as_deref().map(load_roster).transpose()?;
-    let intake = find_answer_files(&arguments.paths, arguments.marks.as_deref())?;
+    let intake =
+        find_answer_files(&arguments.paths, arguments.marks.as_deref())?.with_attempts_settled(&lab.sheet);
     let catalogue = Catalogue::new(&lab, &reference);
     let kit = ReportKit::new(&lab, &reference)?;
     let bar = progress_bar(intake.files.len());
@@ -62,7 +64,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         kit: &kit,
         marks,
         roster: roster.as_ref(),
-        files: &intake.files,
+        intake: &intake,
         out: &arguments.out,
         threads: arguments.threads,
         from_scratch: arguments.from_scratch,
@@ -77,7 +79,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         eprintln!(
             "stopped after {} of {}; run the same command again to go on",
             outcome.submissions,
-            counted(files.len(), "submission", "submissions")
+            counted(intake.files.len(), "submission", "submissions")
         );
         return Ok(ExitCode::from(INTERRUPTED));
     }
@@ -150,6 +152,23 @@ fn summary(outcome: &Outcome, out: &Path) -> String {
             "are as the last run left them: nothing has changed",
         ),
         (outcome.unreadable, "could not be read: see its report", "could not be read: see their reports"),
+        (
+            outcome.missing,
+            "on the list of the course handed nothing in",
+            "on the list of the course handed nothing in",
+        ),
+        (outcome.late, "came too late", "came too late"),
+        (
+            outcome.held,
+            "waits for a person to say whose it is or whether it counts: see the class page",
+            "wait for a person to say whose they are or whether they count: see the class page",
+        ),
+        (
+            outcome.superseded,
+            "answer file does not count, since its owner handed in another",
+            "answer files do not count, since their owners handed in others",
+        ),
+        (outcome.aside, "other file is not marked", "other files are not marked"),
         (
             outcome.to_review,
             "has marks for a person to confirm or to give",

@@ -1,6 +1,6 @@
 //! The class page as a view: distribution, means, who needs review, links to every report.
 
-use super::class_summary::{ClassRow, ClassSummary, QuestionMean, ReviewEntry};
+use super::class_summary::{ClassRow, ClassSummary, IntakeEntry, IntakeKind, QuestionMean, ReviewEntry};
 use super::figures::distribution;
 use super::kit::ReportKit;
 use super::numbers::{counted, number};
@@ -26,6 +26,25 @@ pub struct ClassPage {
     /// Students have numbers of their own.
     varied: bool,
     rows: Vec<RowView>,
+    /// How things were handed in.
+    intake: Vec<IntakeView>,
+}
+
+#[derive(Serialize)]
+struct IntakeView {
+    title: &'static str,
+    amount: String,
+    entries: Vec<IntakeEntryView>,
+    /// Entries that are not listed.
+    more: usize,
+    open: bool,
+}
+
+#[derive(Serialize)]
+struct IntakeEntryView {
+    who: String,
+    words: String,
+    link: String,
 }
 
 #[derive(Serialize)]
@@ -86,12 +105,14 @@ struct RowView {
     possible: String,
     provisional: String,
     findings: String,
+    /// `late`, `handed nothing in`, or nothing.
+    status: &'static str,
     cover: String,
 }
 
 pub fn page(kit: &ReportKit, summary: &ClassSummary) -> ClassPage {
     let lab = &kit.lab;
-    let totals: Vec<f64> = summary.rows.iter().map(|r| r.earned.as_f64()).collect();
+    let totals: Vec<f64> = summary.rows.iter().filter(|r| !r.missing).map(|r| r.earned.as_f64()).collect();
     let possible = lab.questions.iter().map(|q| q.points).sum::<Points>();
     let figure = distribution(&totals, possible.as_f64());
     let review = review(kit, &summary.review);
@@ -122,11 +143,52 @@ pub fn page(kit: &ReportKit, summary: &ClassSummary) -> ClassPage {
         review,
         varied: lab.variants.is_some(),
         rows: summary.rows.iter().map(row).collect(),
+        intake: intake(&summary.intake),
+    }
+}
+
+/// Entries of a kind that are listed.
+const MOST_OF_A_KIND: usize = 1000;
+
+/// What is to be known of how things were handed in, a list for each kind.
+fn intake(entries: &[IntakeEntry]) -> Vec<IntakeView> {
+    let kinds = [
+        (IntakeKind::Held, "Whose it is, and whether it counts", "note"),
+        (IntakeKind::Superseded, "Answer files that do not count", "file"),
+        (IntakeKind::Aside, "Other files, not marked", "file"),
+    ];
+    let view = |(kind, title, what): (IntakeKind, &'static str, &str)| {
+        let all: Vec<&IntakeEntry> = entries.iter().filter(|entry| entry.kind == kind).collect();
+        IntakeView {
+            title,
+            amount: counted(all.len(), what),
+            open: all.len() <= OPEN,
+            more: all.len().saturating_sub(MOST_OF_A_KIND),
+            entries: all.into_iter().take(MOST_OF_A_KIND).map(intake_entry).collect(),
+        }
+    };
+    kinds.into_iter().map(view).filter(|view| !view.entries.is_empty()).collect()
+}
+
+fn intake_entry(entry: &IntakeEntry) -> IntakeEntryView {
+    IntakeEntryView {
+        who: sanitize(&entry.who.chars().take(200).collect::<String>()),
+        words: sanitize(&entry.words),
+        link: entry.link.clone(),
     }
 }
 
 fn facts(summary: &ClassSummary, totals: &[f64], possible: Points) -> Vec<(&'static str, String)> {
-    let mut facts = vec![("Submissions", summary.rows.len().to_string())];
+    let handed_in = summary.rows.iter().filter(|r| !r.missing).count();
+    let mut facts = vec![("Submissions", handed_in.to_string())];
+    for (name, count) in [
+        ("Handed nothing in", summary.rows.len() - handed_in),
+        ("Too late", summary.rows.iter().filter(|r| r.late).count()),
+    ] {
+        if count > 0 {
+            facts.push((name, count.to_string()));
+        }
+    }
     if !totals.is_empty() {
         let mut sorted = totals.to_vec();
         sorted.sort_by(f64::total_cmp);
@@ -248,6 +310,11 @@ fn row(row: &ClassRow) -> RowView {
             (false, _) => "not readable".to_owned(),
             (true, 0) => String::new(),
             (true, n) => n.to_string(),
+        },
+        status: match (row.missing, row.late) {
+            (true, _) => "handed nothing in",
+            (false, true) => "late",
+            (false, false) => "",
         },
         cover: row.cover_total.map_or_else(|| "waiting".to_owned(), |p| p.to_string()),
     }

@@ -10,6 +10,30 @@ pub struct ClassSummary {
     pub questions: Vec<QuestionMean>,
     /// Marks that wait for a person, in the order they are best looked at.
     pub review: Vec<ReviewEntry>,
+    /// What is to be known of how it was handed in.
+    pub intake: Vec<IntakeEntry>,
+}
+
+/// Something about how a submission was handed in.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct IntakeEntry {
+    /// Names of students, or of a file. Hostile until escaped.
+    pub who: String,
+    /// Sentences, or what follows the file's name.
+    pub words: String,
+    /// The report; empty where there is none.
+    pub link: String,
+    pub kind: IntakeKind,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum IntakeKind {
+    /// Whose it is, or whether it counts, is for a person to say; or was found out and is to be known.
+    Held,
+    /// An answer file in whose place another counts.
+    Superseded,
+    /// A file that is not marked.
+    Aside,
 }
 
 /// One submission.
@@ -32,6 +56,10 @@ pub struct ClassRow {
     pub cover_total: Option<Points>,
     /// False when the file as a whole could not be read.
     pub readable: bool,
+    /// On the roster, and handed nothing in.
+    pub missing: bool,
+    /// It came too late, as the LMS says.
+    pub late: bool,
 }
 
 /// How the class did in one question.

@@ -34,6 +34,6 @@ mod tests;
 mod view;
 
 pub use anchor::{item_anchor, question_anchor};
-pub use class_summary::{ClassRow, ClassSummary, QuestionMean, ReviewEntry};
+pub use class_summary::{ClassRow, ClassSummary, IntakeEntry, IntakeKind, QuestionMean, ReviewEntry};
 pub use handout::{HandoutKit, HandoutStudent};
 pub use kit::{ReportError, ReportKit};

@@ -297,6 +297,8 @@ fn three_thousand_submissions_make_a_lean_class_page() {
         findings: i % 3,
         cover_total: None,
         readable: i % 7 > 0,
+        missing: i % 50 == 0,
+        late: i % 9 == 0,
     });
     let question = &FIXTURE.lab.questions[0];
     let entry = |i: usize| ReviewEntry {
@@ -312,10 +314,17 @@ fn three_thousand_submissions_make_a_lean_class_page() {
         conflicts: vec!["it is stable: Your pole 2 lies in the right half-plane.".into()],
         example: "It swings.</q><script>".into(),
     };
+    let intake = |i: usize| IntakeEntry {
+        who: HOSTILE[i % HOSTILE.len()].into(),
+        words: HOSTILE[(i + 1) % HOSTILE.len()].into(),
+        link: if i.is_multiple_of(2) { String::new() } else { format!("reports/answers%20{i}.html") },
+        kind: [IntakeKind::Held, IntakeKind::Superseded, IntakeKind::Aside][i % 3],
+    };
     let summary = ClassSummary {
         rows: rows.collect(),
         questions: vec![QuestionMean { id: question.id.clone(), mean: f64::NAN, possible: question.points }],
         review: (0..3_000).map(entry).collect(),
+        intake: (0..300).map(intake).collect(),
     };
     let html = FIXTURE.kit.class_page(&summary);
     check_page("class", &html);
@@ -342,7 +351,7 @@ fn criteria_stand_on_the_class_page_in_the_order_of_the_lab_whoever_comes_first(
         example: String::new(),
     };
     let review = vec![entry(second, "a picture"), entry(first, "a picture"), entry(second, "words")];
-    let html = FIXTURE.kit.class_page(&ClassSummary { rows: Vec::new(), questions: Vec::new(), review });
+    let html = FIXTURE.kit.class_page(&ClassSummary { review, ..ClassSummary::default() });
     assert!(html.contains("3 marks on 2 criteria wait for a person"), "not a criterion for each reason");
     let places = [(first, "a picture"), (second, "a picture"), (second, "words")].map(|(criterion, why)| {
         let group = format!(" – {}</strong>: 1 mark. <span class=\"muted\">{why}<", criterion.title);

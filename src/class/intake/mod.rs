@@ -2,6 +2,7 @@
 
 mod archive;
 mod aside;
+mod attempts;
 mod lms_names;
 mod owners;
 mod people;
@@ -11,6 +12,7 @@ mod unique_names;
 
 pub use archive::{Archive, ArchiveError};
 pub use aside::{Aside, WhyAside};
+pub use attempts::{Superseded, answers_another_lab};
 pub use lms_names::{HandedIn, Lms};
 pub use people::{settle_people, student_records};
 pub use place::{NotRead, Place, read_capped};
@@ -28,6 +30,8 @@ use std::sync::Arc;
 pub struct Intake {
     /// To be marked, in a fixed order. Who handed in nothing that can be marked has an entry that says so.
     pub files: Vec<AnswerFile>,
+    /// Answer files that do not count, since others of the same owners do.
+    pub superseded: Vec<Superseded>,
     /// Not marked, and why.
     pub aside: Vec<Aside>,
 }
@@ -48,6 +52,10 @@ pub struct AnswerFile {
     pub changed: Option<u64>,
     /// Its owner handed in nothing but these, none of which is an answer file.
     pub only_others: Vec<String>,
+    /// Other answer files of the same owner that are marked too, since nothing says which counts.
+    pub beside_others: Vec<String>,
+    /// As it was called when it was handed in.
+    own_name: String,
     beside: Beside,
 }
 

@@ -100,8 +100,12 @@ pub fn sorted_out(files: Vec<Found>) -> Intake {
                 }
                 None => Beside::Folder,
             },
+            own_name: said
+                .and_then(|said| said.flat_name.clone())
+                .unwrap_or_else(|| file.file_name().to_owned()),
             handed_in,
             only_others,
+            beside_others: Vec::new(),
         });
     }
     intake

@@ -1,19 +1,28 @@
 //! Whose answers they are: what the file says, what the LMS says, and who is on the roster.
 
-use super::{HandedIn, Lms};
+use super::attempts::other_lab;
+use super::{AnswerFile, HandedIn, Lms};
 use crate::class::record::StudentRecord;
 use crate::class::roster::{Roster, RosterStudent, name_words};
 use crate::english::listed;
 use crate::source::{Finding, Severity, sanitize};
-use crate::submission::{Student, Submission};
+use crate::submission::{AnswerSheet, Student, Submission};
 
 /// Members of a group that are taken from the roster.
 const MOST_MEMBERS: usize = 20;
 
-/// Gives `submission` the students that it does not name itself, and says where file, LMS and roster disagree.
+/// Gives `submission` the students that it does not name itself, and says where file, LMS, roster and lab disagree.
 ///
 /// What the file says stands: nobody's mark goes to somebody else because of the name of a folder.
-pub fn settle_people(submission: &mut Submission, handed_in: &HandedIn, roster: Option<&Roster>) {
+pub fn settle_people(
+    submission: &mut Submission,
+    file: &AnswerFile,
+    sheet: &AnswerSheet,
+    roster: Option<&Roster>,
+) {
+    submission.findings.extend(other_lab(submission, sheet));
+    submission.findings.extend(several_files(file));
+    let handed_in = &file.handed_in;
     let owner = Owner::of(handed_in, roster);
     if names_nobody(submission) {
         name_the_owner(submission, handed_in, &owner);
@@ -229,6 +238,18 @@ fn same_name(owner: &str, name: &str) -> bool {
         || (owner_words.len() == 1
             && words.iter().filter(|word| word.chars().count() > 1).all(|word| run_together.contains(word.as_str()))
             && long(&words))
+}
+
+fn several_files(file: &AnswerFile) -> Option<Finding> {
+    if file.beside_others.is_empty() {
+        return None;
+    }
+    let others: Vec<String> = file.beside_others.iter().map(|name| quoted(name)).collect();
+    let message = format!(
+        "Whoever handed this in also handed in {}, and nothing says which counts. All are marked; a person has to say.",
+        listed(&others, "and")
+    );
+    Some(finding(Severity::Warning, "intake.several_files", message))
 }
 
 fn not_on_roster(student: &Student) -> Finding {
