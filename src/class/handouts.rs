@@ -1,7 +1,7 @@
 use super::gradebook::disarmed;
 use super::intake::UniqueNames;
 use super::{Roster, RosterStudent};
-use crate::lab::{LabDefinition, LabErrors, Variant};
+use crate::lab::{LabDefinition, LabErrors, StudentEdition, Variant};
 use crate::report::{HandoutKit, HandoutStudent, ReportError};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -28,8 +28,8 @@ pub enum HandoutError {
     Report(#[from] ReportError),
 }
 
-/// Writes the sheet and the answer file of each student on the roster into a folder of their own below `out`, and
-/// `variants.csv` with everyone's values; one sheet for all when the lab has the same values for everyone.
+/// Writes the sheet, the answer file and the student edition of the lab for each student on the roster into a folder of their own
+/// below `out`, and `variants.csv` with everyone's values; one sheet for all when the lab has the same values for everyone.
 ///
 /// The same lab and roster give the same bytes.
 pub fn write_handouts(
@@ -38,8 +38,10 @@ pub fn write_handouts(
     out: &Path,
 ) -> Result<Handouts, HandoutError> {
     let kit = HandoutKit::new()?;
+    let edition = StudentEdition::of(lab);
+    let edition = (edition.file_name(), edition.to_yaml());
     let (Some(rule), Some(roster)) = (&lab.variants, roster) else {
-        let kept = write(out, &kit.sheet(lab, None), &lab.answer_template())?;
+        let kept = write(out, &kit.sheet(lab, None), &lab.answer_template(), &edition)?;
         return Ok(Handouts { sheets: 1, variants: 0, left_alone: usize::from(kept) });
     };
     let mut names = UniqueNames::default();
@@ -52,7 +54,7 @@ pub fn write_handouts(
         let own = lab.with_variant(variant)?;
         let whose = HandoutStudent { id: &student.id, name: &student.name };
         let template = own.answer_template_for(&student.id, &student.name);
-        write(&out.join(folder), &kit.sheet(&own, Some(whose)), &template)
+        write(&out.join(folder), &kit.sheet(&own, Some(whose)), &template, &edition)
     });
     let left: Vec<bool> = left.collect::<Result<_, HandoutError>>()?;
     write_list(lab, &students, &out.join("variants.csv"))?;
@@ -64,7 +66,12 @@ pub fn write_handouts(
 }
 
 /// Whether an answer file with something else in it was there, and was left alone.
-fn write(folder: &Path, sheet: &str, template: &str) -> Result<bool, HandoutError> {
+fn write(
+    folder: &Path,
+    sheet: &str,
+    template: &str,
+    (name, edition): &(String, String),
+) -> Result<bool, HandoutError> {
     let failed = |path: &Path| {
         let path = path.to_path_buf();
         move |error| HandoutError::Write { path, error }
@@ -72,6 +79,8 @@ fn write(folder: &Path, sheet: &str, template: &str) -> Result<bool, HandoutErro
     std::fs::create_dir_all(folder).map_err(failed(folder))?;
     let (page, answers) = (folder.join("handout.html"), folder.join("answers.yaml"));
     std::fs::write(&page, sheet).map_err(failed(&page))?;
+    let for_check = folder.join(name);
+    std::fs::write(&for_check, edition).map_err(failed(&for_check))?;
     // Somebody's answers may already be in it.
     match std::fs::File::create_new(&answers) {
         Ok(mut file) => io::Write::write_all(&mut file, template.as_bytes()).map_err(failed(&answers))?,

@@ -1,5 +1,5 @@
 use crate::grading::Catalogue;
-use crate::lab::{LabDefinition, SystemRef, Variant};
+use crate::lab::{LabDefinition, StudentEdition, SystemRef, Variant, VariantRule};
 use crate::reference::Reference;
 use crate::report::{ReportError, ReportKit};
 use crate::submission::{AnswerSheet, Submission};
@@ -20,8 +20,12 @@ pub enum Numbers {
 impl Numbers {
     /// (parameter, value as typed); `None` where everyone has the lab's own, empty when it is not known whose it is.
     pub fn values(&self, lab: &LabDefinition) -> Option<Vec<(String, String)>> {
+        self.values_by(lab.variants.as_ref())
+    }
+
+    fn values_by(&self, rule: Option<&VariantRule>) -> Option<Vec<(String, String)>> {
         let values = |variant: &Variant| -> Vec<(String, String)> {
-            let pairs = lab.variants.iter().flat_map(|rule| rule.values(variant));
+            let pairs = rule.iter().flat_map(|rule| rule.values(variant));
             pairs.map(|(name, value)| (name.to_owned(), value.to_owned())).collect()
         };
         match self {
@@ -41,7 +45,11 @@ impl Numbers {
 
 /// By whose numbers `submission` is marked.
 pub fn numbers(lab: &LabDefinition, submission: &Submission) -> Numbers {
-    let Some(rule) = &lab.variants else { return Numbers::Lab };
+    numbers_by(lab.variants.as_ref(), submission)
+}
+
+fn numbers_by(rule: Option<&VariantRule>, submission: &Submission) -> Numbers {
+    let Some(rule) = rule else { return Numbers::Lab };
     let Some(variant) = first_id(submission).and_then(|id| rule.of(id)) else { return Numbers::Unknown };
     let members = submission.students.iter().skip(1).filter_map(|student| {
         let other = rule.of(&student.id).filter(|other| *other != variant)?;
@@ -168,20 +176,17 @@ impl<T> Shelf<T> {
 
 /// An answer file read by `read`, with its student's values for the letters, and these as [`Numbers::values`] gives them.
 pub fn read_with_own_values(
-    lab: &LabDefinition,
+    edition: &StudentEdition,
     read: &dyn Fn(&AnswerSheet) -> Submission,
-) -> (Submission, Option<Vec<(String, String)>>) {
-    let mut submission = read(&lab.sheet);
-    let own = numbers(lab, &submission);
-    if let Some(sheet) = own.variant().and_then(|variant| own_sheet(lab, variant)) {
+) -> (Submission, AnswerSheet, Option<Vec<(String, String)>>) {
+    let mut sheet = edition.sheet();
+    let mut submission = read(&sheet);
+    let own = numbers_by(edition.variants(), &submission);
+    if let Some(variant) = own.variant() {
+        sheet = edition.sheet_of(variant);
         submission = read(&sheet);
     }
-    (submission, own.values(lab))
-}
-
-/// What an answer file may hold, with a variant's values for the letters; `None` when the lab cannot be read with them.
-fn own_sheet(lab: &LabDefinition, variant: &Variant) -> Option<AnswerSheet> {
-    lab.with_variant(variant).ok().map(|lab| lab.sheet)
+    (submission, sheet, own.values_by(edition.variants()))
 }
 
 /// A lab with a variant's values, and the numbers that are right by them; `None` when it does not work with these values.

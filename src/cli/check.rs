@@ -1,10 +1,10 @@
 use super::format::Format;
-use super::outcome::{Failure, THEIRS, colour_on_stdout, load_lab, write_output};
+use super::outcome::{Failure, THEIRS, colour_on_stdout, write_output};
 use crate::annotations::{Annotations, Case, FileAnnotations};
-use crate::lab::LabDefinition;
+use crate::lab::{DEFAULT, StudentEdition, load_student_edition};
 use crate::report::numbers::counted;
 use crate::source::{Finding, Severity, Value, sanitize};
-use crate::submission::{Folder, Submission, read, self_check};
+use crate::submission::{Answer, AnswerSheet, AnswerValue, Folder, Submission, read, self_check};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::path::{Path, PathBuf};
@@ -12,16 +12,17 @@ use std::process::ExitCode;
 
 /// Check an answer file before handing it in: can it be read, what is missing, does it contradict itself.
 ///
-/// The right answers are not computed and cannot be seen here.
+/// The right answers are not computed and cannot be seen here. Of a lab only its student edition is looked at, so that the
+/// file that `polemark handout` writes for students says as much as the lab itself.
 #[derive(clap::Args)]
 #[command(
-    after_long_help = "Examples:\n  polemark check answers.yaml\n  polemark check answers.yaml --lab labs/mine/lab.yaml\n  polemark check answers.yaml --format github\n\nExit code: 0 when there is nothing to look at (blanks are nothing), 1 when something cannot be read, does not\nagree with itself, or is read with a warning."
+    after_long_help = "Examples:\n  polemark check answers.yaml\n  polemark check answers.yaml --lab mine.student.yaml\n  polemark check answers.yaml --format github\n\nExit code: 0 when there is nothing to look at (blanks are nothing), 1 when something cannot be read, does not\nagree with itself, or is read with a warning."
 )]
 pub struct Arguments {
     /// Answer files.
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// Embedded lab, or path of a lab file [default: the embedded lab that the file names, else ee361-lab3].
+    /// Embedded lab, or path of a lab file or of its student edition [default: the embedded lab that the file names, else ee361-lab3].
     #[arg(long)]
     lab: Option<String>,
     /// How to tell it.
@@ -32,15 +33,15 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let mut all_well = true;
     let mut annotations = Annotations { verb: "polemark check", files: Vec::new() };
-    let mut labs: BTreeMap<Option<String>, LabDefinition> = BTreeMap::new();
+    let mut labs: BTreeMap<Option<String>, StudentEdition> = BTreeMap::new();
     for path in &arguments.files {
         let bytes = crate::class::read_capped(path)
             .map_err(|error| Failure::Read { path: path.to_path_buf(), error })?;
         let lab = match labs.entry(arguments.lab.clone().or_else(|| named_lab(&bytes))) {
             Entry::Occupied(known) => known.into_mut(),
             Entry::Vacant(place) => {
-                let lab = load_lab(place.key().as_deref())?;
-                place.insert(lab)
+                let name = place.key().as_deref().unwrap_or(DEFAULT);
+                place.insert(load_student_edition(name).map_err(Failure::Load)?)
             }
         };
         let checked = check_file(lab, path, &bytes);
@@ -71,15 +72,15 @@ struct Checked {
     well: bool,
 }
 
-fn check_file(lab: &LabDefinition, path: &Path, bytes: &[u8]) -> Checked {
+fn check_file(lab: &StudentEdition, path: &Path, bytes: &[u8]) -> Checked {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let folder = Folder(path.parent().unwrap_or(Path::new("")).to_path_buf());
-    let (submission, values) = crate::class::read_with_own_values(lab, &|sheet| {
+    let (submission, sheet, values) = crate::class::read_with_own_values(lab, &|sheet| {
         read(&stem, &path.to_string_lossy(), bytes, sheet, &folder)
     });
     let mut findings = submission.findings.clone();
     if submission.readable {
-        findings.extend(self_check(&submission, &lab.sheet));
+        findings.extend(self_check(&submission, &sheet));
     }
     if values.as_ref().is_some_and(Vec::is_empty) {
         findings.push(no_values());
@@ -88,7 +89,7 @@ fn check_file(lab: &LabDefinition, path: &Path, bytes: &[u8]) -> Checked {
 
     let colour = colour_on_stdout();
     let mut text = own_values(&submission, values.as_deref().unwrap_or_default());
-    text.push_str(&echo(lab, &submission));
+    text.push_str(&echo(&sheet, &submission));
     for finding in &others {
         text.push_str(&finding.render(&submission.source, colour));
         text.push_str("\n\n");
@@ -112,17 +113,17 @@ fn check_file(lab: &LabDefinition, path: &Path, bytes: &[u8]) -> Checked {
     text.push_str(&format!("{name}: {counts}\n"));
     Checked {
         text,
-        annotations: annotations(lab, &submission, &findings),
+        annotations: annotations(&sheet, &submission, &findings),
         well: wrong == 0 && submission.readable,
     }
 }
 
 /// How each answer was read, and every finding under the field it is about.
-fn annotations(lab: &LabDefinition, submission: &Submission, findings: &[Finding]) -> FileAnnotations {
+fn annotations(sheet: &AnswerSheet, submission: &Submission, findings: &[Finding]) -> FileAnnotations {
     let mut cases = Vec::new();
-    for field in &lab.sheet.fields {
+    for field in &sheet.fields {
         if let Some(answer) = submission.answers.get(&field.path).filter(|answer| answer.value.is_ok()) {
-            cases.push(Case::well(&field.path, "answer.read", &format!("read as {}", answer.read_as())));
+            cases.push(Case::well(&field.path, "answer.read", &format!("read as {}", read_as(sheet, answer))));
         }
     }
     for finding in findings {
@@ -159,12 +160,22 @@ fn no_values() -> Finding {
 }
 
 /// How each answer was read, so that a misreading is noticed before the deadline.
-fn echo(lab: &LabDefinition, submission: &Submission) -> String {
+fn echo(sheet: &AnswerSheet, submission: &Submission) -> String {
     let mut text = String::new();
-    for field in &lab.sheet.fields {
+    for field in &sheet.fields {
         if let Some(answer) = submission.answers.get(&field.path).filter(|answer| answer.value.is_ok()) {
-            text.push_str(&format!("  {}: {}\n", field.path, sanitize(&answer.read_as())));
+            text.push_str(&format!("  {}: {}\n", field.path, sanitize(&read_as(sheet, answer))));
         }
     }
     if text.is_empty() { text } else { format!("Read as:\n{text}\n") }
+}
+
+/// Numbers in place of its letters would tell what is to be found at rest.
+fn read_as(sheet: &AnswerSheet, answer: &Answer) -> String {
+    match &answer.value {
+        Ok(AnswerValue::TransferFunction { formula: Some(formula), .. }) if sheet.leans_on_untold(answer) => {
+            formula.to_string()
+        }
+        _ => answer.read_as(),
+    }
 }

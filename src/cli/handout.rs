@@ -5,10 +5,12 @@ use crate::source::sanitize;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Write each student's sheet and answer file, with their own values.
+/// Write what students get: sheet, answer file, and what `check` needs of the lab.
 ///
-/// In DIR, a folder for each student with handout.html and answers.yaml, and variants.csv, which is for you: who has which
-/// values. A lab that is the same for everyone gives one handout.html and one answers.yaml.
+/// In DIR, a folder for each student with handout.html, answers.yaml and LAB.student.yaml, and variants.csv, which is for you:
+/// who has which values. A lab that is the same for everyone gives one of each. LAB.student.yaml is the student edition of the
+/// lab: `polemark check answers.yaml --lab LAB.student.yaml` reads with it, and no right answers are in it. The lab file itself
+/// has them: keep it.
 #[derive(clap::Args)]
 #[command(
     after_long_help = "Examples:\n  polemark handout labs/mine/lab.yaml --roster roster.csv --out handouts\n  polemark handout --out handout"

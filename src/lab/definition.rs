@@ -92,6 +92,8 @@ pub struct OperatingPointDefinition {
     pub rest: Rest,
     /// The equilibrium as typed, (name, text): `("theta", "pi")`; of a value that is solved for, what was found.
     pub at_text: Vec<(String, String)>,
+    /// Names of what was solved for: students are to find it.
+    pub solved: BTreeSet<String>,
     pub input: String,
     pub input_unit: String,
     pub output: String,

@@ -1,6 +1,6 @@
 use super::names::suggestion;
 use super::shelf::SHELF;
-use super::{LabDefinition, LoadError};
+use super::{LabDefinition, LoadError, StudentEdition, student_edition};
 use crate::source::{self, SourceText, sanitize};
 use std::path::Path;
 
@@ -16,8 +16,21 @@ pub fn embedded() -> &'static [(&'static str, &'static str)] {
 ///
 /// Anything with a path separator or an extension is a path; an embedded name wins over a folder of that name.
 pub fn load(name_or_path: &str) -> Result<LabDefinition, LoadError> {
+    Ok(LabDefinition::parse(text_of(name_or_path)?)?)
+}
+
+/// The student edition of the same, or the one in the file that an instructor handed out.
+pub fn load_student_edition(name_or_path: &str) -> Result<StudentEdition, LoadError> {
+    let text = text_of(name_or_path)?;
+    if student_edition::is_one(&text) {
+        return Ok(StudentEdition::parse(text)?);
+    }
+    Ok(StudentEdition::of(&LabDefinition::parse(text)?))
+}
+
+fn text_of(name_or_path: &str) -> Result<SourceText, LoadError> {
     if let Some((id, text)) = SHELF.iter().find(|(id, _)| *id == name_or_path) {
-        return Ok(LabDefinition::parse(SourceText::new(format!("{id}/lab.yaml"), *text))?);
+        return Ok(SourceText::new(format!("{id}/lab.yaml"), *text));
     }
     let given = Path::new(name_or_path);
     let path = if given.is_dir() { given.join("lab.yaml") } else { given.to_owned() };
@@ -29,7 +42,7 @@ pub fn load(name_or_path: &str) -> Result<LabDefinition, LoadError> {
     let bytes = std::fs::read(&path).map_err(|source| LoadError::Io { path: sanitize(&shown), source })?;
     let text =
         source::decode(&bytes).map_err(|source| LoadError::NotText { path: sanitize(&shown), source })?;
-    Ok(LabDefinition::parse(SourceText::new(shown, text))?)
+    Ok(SourceText::new(shown, text))
 }
 
 fn unknown(name: &str) -> LoadError {

@@ -19,15 +19,17 @@ mod schema_markdown;
 mod sheet;
 mod shelf;
 mod spanned;
+mod student_edition;
 mod template;
 mod variants;
 
 pub use definition::*;
 pub use errors::{LabErrors, LoadError};
 pub use feature::{AskedFeature, AskedRest, FeatureKind};
-pub use load::{DEFAULT, embedded, load};
+pub use load::{DEFAULT, embedded, load, load_student_edition};
 pub use mistakes::{MistakesRule, WithoutEffect, mistake_codes};
 pub use points::Points;
 pub use schema::lab_schema;
 pub use schema_markdown::lab_reference;
+pub use student_edition::StudentEdition;
 pub use variants::{MOST_VARIANTS, Variant, VariantRule, VariedParameter, folded_id};

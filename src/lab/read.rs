@@ -1,6 +1,7 @@
 use super::file::{LabFile, ModelFile, Text};
 use super::linear_file;
 use super::names::suggestion;
+use super::student_edition;
 use crate::source::{Finding, Node, SourceText, Span, Value, sanitize};
 use serde_yaml::{Error, Location};
 
@@ -17,6 +18,9 @@ pub(super) fn read(source: &SourceText) -> Result<(LabFile, Node), Finding> {
             None => finding,
         }
     })?;
+    if let Some(finding) = student_edition::mark(&tree) {
+        return Err(finding);
+    }
     // The tree was read within budgets, so the second reading needs none of its own.
     let options = serde_yaml::options! { with_snippet: false };
     let mut file: LabFile =
@@ -52,7 +56,7 @@ fn author_help(help: &str) -> String {
     rest.next().map_or_else(String::new, |first| format!("{}{}", first.to_lowercase(), rest.as_str()))
 }
 
-fn finding(error: &Error, tree: &Node) -> Finding {
+pub(super) fn finding(error: &Error, tree: &Node) -> Finding {
     let (code, message, help) = match error {
         Error::SerdeUnknownField { field, expected, .. } => {
             ("lab.unknown_key", format!("there is no key `{field}` here"), Some(suggestion(field, expected)))

@@ -58,7 +58,7 @@ impl LabDefinition {
 
 /// Anybody's text as a YAML scalar on one line: in double quotes, what a file cannot show written as escapes. Nothing for
 /// an empty text.
-fn quoted(text: &str) -> String {
+pub(super) fn quoted(text: &str) -> String {
     if text.is_empty() {
         return String::new();
     }

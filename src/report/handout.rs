@@ -8,6 +8,7 @@ use super::numbers::{counted, typeset};
 use super::prose;
 use crate::lab::{
     Check, LabDefinition, ModelDefinition, OperatingPointDefinition, Question, SimulationDefinition,
+    StudentEdition,
 };
 use crate::source::sanitize;
 use minijinja::Environment;
@@ -50,6 +51,8 @@ struct HandoutPage {
     models: Vec<ModelView>,
     simulations: Vec<SimulationView>,
     questions: Vec<QuestionView>,
+    /// The file to check one's answers with, where polemark does not have the lab inside.
+    edition: Option<String>,
 }
 
 #[derive(Serialize)]
@@ -116,9 +119,14 @@ fn page(lab: &LabDefinition, student: Option<HandoutStudent<'_>>) -> HandoutPage
             })
             .collect(),
         questions: lab.questions.iter().map(question).collect(),
+        edition: (!is_embedded(lab)).then(|| StudentEdition::of(lab).file_name()),
         name,
         id,
     }
+}
+
+fn is_embedded(lab: &LabDefinition) -> bool {
+    crate::lab::embedded().iter().any(|(id, text)| *id == lab.id && *text == lab.text.text)
 }
 
 /// Whether the question a simulation belongs to asks for the kind of a nonlinearity, which title and chain would tell.
@@ -161,7 +169,7 @@ fn model(definition: &ModelDefinition) -> ModelView {
 
 fn point(point: &OperatingPointDefinition) -> PointView {
     // What is to be found is not told.
-    let stated = point.at_text.iter().filter(|(_, text)| !text.trim_start().starts_with("solve"));
+    let stated = point.at_text.iter().filter(|(name, _)| !point.solved.contains(name));
     let with_unit = |name: &str, unit: &str| match unit {
         "" => math::symbol(name),
         unit => format!("{} ({})", math::symbol(name), typeset(unit)),

@@ -113,7 +113,7 @@ fn witnesses<'a>(
                 None => continue,
             },
             AnswerValue::Poles(poles) if !poles.is_empty() => (3, Known::Value(value, None)),
-            AnswerValue::TransferFunction { transfer_function, .. } => {
+            AnswerValue::TransferFunction { transfer_function, .. } if !sheet.leans_on_untold(answer) => {
                 (4, by_transfer_function(transfer_function, response))
             }
             _ => continue,

@@ -31,7 +31,9 @@ pub fn self_check(submission: &Submission, sheet: &AnswerSheet) -> Vec<Finding> 
     let mut systems: BTreeMap<&str, System<'_>> = BTreeMap::new();
     for field in &sheet.fields {
         if let (Some(about), Some(answer)) = (field.about.as_deref(), submission.answers.get(&field.path)) {
-            systems.entry(about).or_insert_with(|| System::new(submission)).add(field, answer);
+            if !sheet.leans_on_untold(answer) {
+                systems.entry(about).or_insert_with(|| System::new(submission)).add(field, answer);
+            }
         }
     }
     findings.extend(systems.values().flat_map(System::contradictions));

@@ -1,7 +1,7 @@
-use super::Unit;
+use super::{Answer, AnswerValue, Unit};
 use crate::algebra::Rational;
 use crate::lti::InputKind;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What kind of answer a field takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Deserialize)]
@@ -82,6 +82,8 @@ pub struct FieldLetters {
     pub also: BTreeMap<String, String>,
     /// Of a tangent: what it is a tangent of.
     pub line: Option<LineNames>,
+    /// Those of them that students are to find themselves, where nobody may tell: their values here are stand-ins.
+    pub untold: BTreeSet<String>,
 }
 
 /// The names in the equation of a tangent.
@@ -91,4 +93,15 @@ pub struct LineNames {
     pub input: String,
     /// Coordinates and inputs, whose values at rest are `x_0`.
     pub at_rest: Vec<String>,
+}
+
+impl AnswerSheet {
+    /// Whether an answer is a formula with a letter in it whose value is not told, so that its numbers say nothing.
+    pub fn leans_on_untold(&self, answer: &Answer) -> bool {
+        let Ok(AnswerValue::TransferFunction { formula: Some(formula), .. }) = &answer.value else {
+            return false;
+        };
+        let Some(own) = self.letters.get(&answer.path) else { return false };
+        formula.symbols().iter().any(|symbol| own.untold.contains(&symbol.name))
+    }
 }

@@ -4,7 +4,7 @@ use crate::lab::file::{ComparisonFile, LabFile, ModelFile, OperatingPointFile, T
 use crate::lab::names::list;
 use crate::lab::{OperatingPointDefinition, defaults};
 use crate::model::{self, Comparison, Equilibrium, Model, ModelError, Rest, RestValue};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 impl Checker<'_> {
     /// `None` when it cannot be built, or the model or the parameters could not.
@@ -39,7 +39,7 @@ impl Checker<'_> {
         if self.findings.len() > before {
             return None;
         }
-        let solved: Vec<String> = entries
+        let solved: BTreeSet<String> = entries
             .iter()
             .filter(|(_, value)| matches!(value, RestValue::Solve { .. }))
             .map(|(name, _)| name.clone())
@@ -53,6 +53,7 @@ impl Checker<'_> {
         });
         Some(OperatingPointDefinition {
             at_text: at_text.collect(),
+            solved,
             id: id.value.clone(),
             title: defaults::title(file.title.as_ref(), &id.value),
             at,
