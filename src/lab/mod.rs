@@ -22,6 +22,7 @@ mod spanned;
 mod student_edition;
 mod template;
 mod variants;
+mod yaml_slips;
 
 pub use definition::*;
 pub use errors::{LabErrors, LoadError};

@@ -8,6 +8,11 @@ use serde_yaml::{Error, Location};
 /// The file's shape: YAML, and the keys it must and may have. The first thing wrong with the shape ends the reading.
 pub(super) fn read(source: &SourceText) -> Result<(LabFile, Node), Finding> {
     let tree = crate::source::parse(&source.text).map_err(|error| {
+        if let (None, Some((place, message, help))) =
+            (error.help, error.span.and_then(|place| super::yaml_slips::slip(&source.text, place.start)))
+        {
+            return Finding::error("lab.yaml", message).with_help(help).at(place);
+        }
         let finding = Finding::error("lab.yaml", error.message);
         let finding = match error.help {
             Some(help) => finding.with_help(author_help(help)),
@@ -58,6 +63,13 @@ fn author_help(help: &str) -> String {
 
 pub(super) fn finding(error: &Error, tree: &Node) -> Finding {
     let (code, message, help) = match error {
+        // `{value: 0,2}` is 0, and a key 2.
+        Error::SerdeUnknownField { field, .. }
+            if !field.is_empty() && field.bytes().all(|b| b.is_ascii_digit()) =>
+        {
+            let help = format!("if `,{field}` is the end of a number, write a point: `.{field}`");
+            ("lab.unknown_key", format!("there is no key `{field}` here"), Some(help))
+        }
         Error::SerdeUnknownField { field, expected, .. } => {
             ("lab.unknown_key", format!("there is no key `{field}` here"), Some(suggestion(field, expected)))
         }
@@ -78,7 +90,11 @@ pub(super) fn finding(error: &Error, tree: &Node) -> Finding {
                 "sequence start" => "put brackets around a single entry",
                 _ => "write the value after the key, without brackets",
             };
-            ("lab.shape", wanted.to_owned(), Some(help.to_owned()))
+            let at = error.location().map(|location| span(location).start);
+            match at.and_then(|at| matrix(tree, at)) {
+                Some((wanted, help)) => ("lab.shape", wanted, Some(help)),
+                None => ("lab.shape", wanted.to_owned(), Some(help.to_owned())),
+            }
         }
         Error::NullIntoString { .. } => ("lab.shape", "a value is missing here".to_owned(), None),
         Error::ExpectedMappingEndAfterEnumVariantValue { .. } => {
@@ -101,6 +117,44 @@ pub(super) fn finding(error: &Error, tree: &Node) -> Finding {
         Some(place) => finding.at(place),
         None => finding,
     }
+}
+
+/// What is wanted where a matrix of a state-space model was given as a list or a single value: its shape, and how to write it.
+fn matrix(tree: &Node, at: usize) -> Option<(String, String)> {
+    let (_, _, state_space) = entries(tree)
+        .into_iter()
+        .find(|(key, _, node)| *key == "state_space" && node.span.start <= at && at <= node.span.end)?;
+    let own = state_space.as_mapping().unwrap_or_default();
+    let (key, _, given) = own.iter().find(|(_, _, node)| node.span.start <= at && at <= node.span.end)?;
+    let shape = match key.as_str() {
+        "A" => "a row for each state, with a number for each state",
+        "B" => "a row for each state, with a number for each input",
+        "C" => "a row for each output, with a number for each state",
+        "D" => "a row for each output, with a number for each input",
+        _ => return None,
+    };
+    let numbers: Vec<&str> = match &given.value {
+        Value::Sequence(items) => items.iter().map(Node::as_scalar).collect::<Option<_>>()?,
+        Value::Scalar(one) => vec![one],
+        _ => return None,
+    };
+    let rows = match key.as_str() {
+        "B" => numbers.iter().map(|one| format!("[{one}]")).collect::<Vec<_>>().join(", "),
+        _ => format!("[{}]", numbers.join(", ")),
+    };
+    Some((format!("`{key}` is a matrix: {shape}"), format!("write `{key}: [{rows}]`")))
+}
+
+/// Every key of a file with its value, those within others too.
+fn entries(node: &Node) -> Vec<(&str, Span, &Node)> {
+    let below: Vec<&Node> = match &node.value {
+        Value::Mapping(entries) => entries.iter().map(|(_, _, child)| child).collect(),
+        Value::Sequence(items) => items.iter().collect(),
+        Value::Null | Value::Scalar(_) => Vec::new(),
+    };
+    let own =
+        node.as_mapping().unwrap_or_default().iter().map(|(key, span, child)| (key.as_str(), *span, child));
+    own.chain(below.into_iter().flat_map(entries)).collect()
 }
 
 /// The key whose mapping begins, or has a key, at byte `at`; of the whole file, its first key.

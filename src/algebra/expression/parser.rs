@@ -256,8 +256,9 @@ impl Parser {
                 inner.node.end = token.end;
                 Ok(inner)
             }
-            Some(token) => Err(self.stray(&token)),
-            None => Err(error(start, start + 1, "this bracket is never closed".to_owned())),
+            // What stands behind an equals sign is another formula.
+            Some(token) if token.kind != TokenKind::Equals => Err(self.stray(&token)),
+            _ => Err(error(start, start + 1, "this bracket is never closed".to_owned())),
         }
     }
 

@@ -17,6 +17,8 @@ mod scalars;
 #[cfg(test)]
 mod short_tests;
 mod simulations;
+#[cfg(test)]
+mod slip_tests;
 mod tangents;
 #[cfg(test)]
 mod tests;

@@ -4,6 +4,7 @@ use crate::lab::file::{ComparisonFile, LabFile, ModelFile, OperatingPointFile, T
 use crate::lab::names::list;
 use crate::lab::{OperatingPointDefinition, defaults};
 use crate::model::{self, Comparison, Equilibrium, Model, ModelError, Rest, RestValue};
+use crate::submission::Unit;
 use std::collections::{BTreeMap, BTreeSet};
 
 impl Checker<'_> {
@@ -81,7 +82,10 @@ impl Checker<'_> {
     fn rest_value(&mut self, text: &Text, parameters: &[&str]) -> Option<RestValue> {
         match RestValue::parse(&text.value, parameters) {
             Ok(value) => Some(value),
-            Err(error) => {
+            Err(mut error) => {
+                if let Some(help) = unit_help(&text.value) {
+                    error.help = Some(help);
+                }
                 self.expression_error("lab.equilibrium", text, error);
                 None
             }
@@ -172,6 +176,20 @@ impl Checker<'_> {
             ),
             _ => (first, error.to_string(), None),
         };
+        let names = model.coordinates.iter().map(|c| &c.name).chain(&model.inputs);
+        let left_out: Vec<&str> = names
+            .filter(|name| !model.outputs.contains(name) && typed(name).is_none())
+            .map(String::as_str)
+            .collect();
+        let taken = match left_out.as_slice() {
+            [] => None,
+            [one] => Some(format!("`{one}` is not given, so it is taken for 0")),
+            several => Some(format!("{} are not given, so they are taken for 0", list(several))),
+        };
+        let help = match (help, taken) {
+            (Some(help), Some(taken)) => Some(format!("{help}; {taken}")),
+            (help, taken) => help.or(taken),
+        };
         self.error("lab.equilibrium", place, message, help);
         None
     }
@@ -187,6 +205,18 @@ impl Checker<'_> {
         self.error("lab.missing_key", span(text), message, Some(help));
         None
     }
+}
+
+/// What to do about `30 deg` and its like.
+fn unit_help(text: &str) -> Option<String> {
+    let text = text.trim();
+    let number = text.find(|c: char| !c.is_ascii_digit() && !matches!(c, '.' | '-' | '+'))?;
+    let (number, unit) = text.split_at(number);
+    let unit = Unit::parse(unit).filter(|_| !number.is_empty())?;
+    Some(match unit.symbol() {
+        "deg" => format!("angles are in radians: write `{number}*pi/180`"),
+        _ => format!("write the number alone, `{number}`, in the unit that the coordinate has"),
+    })
 }
 
 fn names<T>(entries: &[(Text, T)]) -> Vec<&str> {

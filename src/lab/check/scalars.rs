@@ -60,7 +60,11 @@ impl Checker<'_> {
         match parse_decimal(text.value.trim()) {
             Ok(value) => Some(value),
             Err(error) => {
-                let help = "write a decimal such as `0.2083` or `1e-3`".to_owned();
+                let pointed = text.value.trim().replacen(',', ".", 1);
+                let help = match parse_decimal(&pointed) {
+                    Ok(_) if text.value.contains(',') => format!("write a point: `{pointed}`"),
+                    _ => "write a decimal such as `0.2083` or `1e-3`".to_owned(),
+                };
                 self.error("lab.number", span(text), error.to_string(), Some(help));
                 None
             }
