@@ -1,4 +1,4 @@
-use super::{AskedFeature, AskedRest, MistakesRule, Points, VariantRule};
+use super::{AskedFeature, AskedRest, MistakesRule, NearMiss, Points, VariantRule};
 use crate::algebra::{Expression, Rational};
 use crate::lti::InputKind;
 use crate::model::{Comparison, Equilibrium, LinearForm, Model, Rest, TangentRule};
@@ -34,6 +34,8 @@ pub struct LabDefinition {
     pub expectations: Vec<Expectation>,
     /// The model answer, assembled from the questions' `model_answer`, read like any submission.
     pub model_answer: Submission,
+    /// Answers that are not quite right, and what they must earn.
+    pub near_misses: Vec<NearMiss>,
     /// What an answer file may hold; no right answers in it.
     pub sheet: AnswerSheet,
     pub text: SourceText,

@@ -488,6 +488,24 @@ pub(super) struct QuestionFile {
     #[serde(default, rename = "model_answer")]
     #[schemars(with = "serde_json::Value")]
     pub _model_answer: IgnoredAny,
+    /// Answers that are not quite right, and what they must earn: `verify` marks each by itself.
+    #[serde(default)]
+    pub near_misses: Vec<NearMissFile>,
+}
+
+/// An answer that is not quite right.
+#[derive(Debug, schemars::JsonSchema, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct NearMissFile {
+    /// The answer, written like `model_answer`. Of a question with `fields`, those it names; the others are the model answer's.
+    #[serde(rename = "answer")]
+    #[schemars(with = "serde_json::Value")]
+    pub _answer: IgnoredAny,
+    /// What the whole question earns with it, all other answers being the model answer's.
+    pub points: Text,
+    /// Why, one line.
+    #[serde(default)]
+    pub why: String,
 }
 
 /// A field of an answer; a word stands for a field of that `kind`: `poles`, `overshoot_percent`.

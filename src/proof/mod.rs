@@ -5,6 +5,7 @@ mod blind_tolerance;
 mod computed_answer;
 mod missing;
 mod mistakes;
+mod near_misses;
 mod variants;
 
 pub use missing::{Missing, missing, to_paste};
@@ -35,6 +36,7 @@ pub fn prove(lab: &LabDefinition, reference: &Reference) -> Vec<Check> {
     checks.push(model_answer_reads(lab));
     checks.extend(model_answer_earns_everything(lab, reference));
     checks.push(blank_earns_nothing(lab, reference));
+    checks.extend(near_misses::near_misses(lab, reference));
     checks.push(template_is_blank(lab));
     checks.extend(answers_of_other_points_are_told_apart(lab, reference));
     checks.extend(mistakes::mistakes_are_told_apart(lab, reference));

@@ -356,3 +356,67 @@ fn a_tolerance_that_takes_0_for_the_value_is_something_to_do() {
     assert_eq!(lab("tolerances: {values: {relative: 0.01, absolute: 0.00001}}\n"), None);
     assert_eq!(lab(""), None);
 }
+
+/// A near miss must earn what the lab says, and what guards it is noticed when it changes.
+#[test]
+fn near_misses_guard_tolerances_and_partial_points() {
+    const LAB: &str = "lab: spring
+models:
+  spring:
+    coordinates: {x: {unit: m}}
+    inputs: {F: {unit: N}}
+    equations: [\"2*x'' + 0.8*x' + 38*x = F\"]
+    operating_points: {rest: {}}
+tolerances: {coefficients: {relative: 0.01}}
+questions:
+  transfer_function:
+    points: 5
+    answer: transfer_function
+    model_answer: 1/(2s^2 + 0.8s + 38)
+    near_misses:
+      - {answer: 0.5/(s^2 + 0.4s + 19), points: 5, why: divided by 2}
+      - {answer: 1/(2s^2 + 0.8s + 38.3), points: 5, why: 0.8 % off}
+      - {answer: 1/(2s^2 + 0.8s + 39), points: 4, why: one coefficient is off}
+      - {answer: -1/(2s^2 + 0.8s + 38), points: 3, why: the sign}
+      - {answer: stable, points: 0, why: no function at all}
+  poles:
+    points: 4
+    fields: {poles: poles, word: stability}
+    model_answer:
+      poles: -0.2 ± 4.354j
+      word: stable
+    near_misses:
+      - {answer: {word: unstable}, points: 2}
+";
+    #[track_caller]
+    fn check(from: &str, to: &str, line: Option<&str>) {
+        let text = LAB.replacen(from, to, 1);
+        let lab = LabDefinition::parse(SourceText::new("lab.yaml", text.as_str())).expect("the lab parses");
+        let reference = Reference::compute(&lab).expect("the lab has a reference");
+        let checks = prove(&lab, &reference);
+        let failed: Vec<_> = checks.iter().filter(|check| !check.holds).collect();
+        let lines: Vec<&str> = failed
+            .iter()
+            .filter_map(|check| text.lines().nth(lab.text.position(check.span?.start).line - 1))
+            .map(str::trim)
+            .collect();
+        assert_eq!(lines, Vec::from_iter(line), "{failed:#?}");
+        assert!(failed.iter().all(|check| check.what.starts_with("near miss of ")), "{failed:#?}");
+    }
+    check("", "", None);
+    check(
+        "relative: 0.01",
+        "relative: 0.001",
+        Some("- {answer: 1/(2s^2 + 0.8s + 38.3), points: 5, why: 0.8 % off}"),
+    );
+    check(
+        "points: 4, why",
+        "points: 3.5, why",
+        Some("- {answer: 1/(2s^2 + 0.8s + 39), points: 3.5, why: one coefficient is off}"),
+    );
+    check("unstable}, points: 2", "unstable}, points: 4", Some("- {answer: {word: unstable}, points: 4}"));
+    let wrong = LAB.replacen("points: 2}", "points: 4.5}", 1);
+    let errors =
+        LabDefinition::parse(SourceText::new("lab.yaml", wrong)).expect_err("more than the question has");
+    assert!(errors.to_string().contains("`4.5` cannot be what a near miss earns"), "{errors}");
+}

@@ -30,7 +30,11 @@ pub(super) use criteria::CHECKS;
 pub(super) use questions::{KINDS, REST};
 
 use super::file::{Entries, LabFile, QuantityFile, Spanned, Text};
-use super::{LabDefinition, LabErrors, Outcome, SystemRef, defaults, model_answer, read, sheet};
+use super::{
+    LabDefinition, LabErrors, Outcome, Points, Question, SystemRef, defaults, model_answer, near_miss, read,
+    sheet,
+};
+use crate::algebra::Rational;
 use crate::source::{Finding, Node, SourceText, Span, Value};
 use std::collections::BTreeMap;
 
@@ -211,6 +215,7 @@ impl Checker<'_> {
         let models = models?;
         let sheet = sheet::sheet(&file.lab.value, &title, &questions, &parameters, &models, also);
         let model_answer = self.model_answer(file, tree, &sheet)?;
+        let near_misses = near_miss::near_misses(file, tree, &self.near_misses(file, &questions));
         Some(LabDefinition {
             id: file.lab.value.clone(),
             title,
@@ -228,6 +233,7 @@ impl Checker<'_> {
             mistakes: mistakes?,
             expectations: expectations?,
             model_answer,
+            near_misses,
             sheet,
             text: SourceText::default(),
         })
@@ -243,6 +249,27 @@ impl Checker<'_> {
         let right = findings.is_empty();
         self.findings.extend(findings);
         right.then_some(answer)
+    }
+
+    /// (question, points, why) of every near miss, in file order.
+    fn near_misses(&mut self, file: &LabFile, questions: &[Question]) -> Vec<(String, Points, String)> {
+        let mut all = Vec::new();
+        for ((id, question), checked) in file.questions.0.iter().zip(questions) {
+            for miss in &question.near_misses {
+                let hundredths = self.number(&miss.points).map(|points| points * Rational::from(100));
+                let whole =
+                    hundredths.filter(Rational::is_int).and_then(|n| i64::try_from(n.numerator()).ok());
+                let points =
+                    whole.map(Points).filter(|points| (Points::ZERO..=checked.points).contains(points));
+                if points.is_none() {
+                    let message = format!("`{}` cannot be what a near miss earns", miss.points.value);
+                    let help = format!("write 0 to {}, with at most two decimals", checked.points);
+                    self.error("lab.points", span(&miss.points), message, Some(help));
+                }
+                all.push((id.value.clone(), points.unwrap_or(Points::ZERO), miss.why.trim().to_owned()));
+            }
+        }
+        all
     }
 
     fn error(&mut self, code: &'static str, span: Span, message: impl Into<String>, help: Option<String>) {
