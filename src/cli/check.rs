@@ -41,7 +41,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
             Entry::Occupied(known) => known.into_mut(),
             Entry::Vacant(place) => {
                 let name = place.key().as_deref().unwrap_or(DEFAULT);
-                place.insert(load_student_edition(name).map_err(Failure::Load)?)
+                let edition = load_student_edition(name).map_err(Failure::Load)?;
+                place.insert(edition)
             }
         };
         let checked = check_file(lab, path, &bytes);
@@ -123,7 +124,11 @@ fn annotations(sheet: &AnswerSheet, submission: &Submission, findings: &[Finding
     let mut cases = Vec::new();
     for field in &sheet.fields {
         if let Some(answer) = submission.answers.get(&field.path).filter(|answer| answer.value.is_ok()) {
-            cases.push(Case::well(&field.path, "answer.read", &format!("read as {}", read_as(sheet, answer))));
+            cases.push(Case::well(
+                &field.path,
+                "answer.read",
+                &format!("read as {}", read_as(sheet, answer)),
+            ));
         }
     }
     for finding in findings {
