@@ -24,7 +24,11 @@ pub(super) fn expected(accepted: &[Accepted<'_, Shape>]) -> String {
     let others =
         if accepted.iter().all(|one| one.what == main.what) { String::new() } else { also(accepted) };
     let either = other_word(accepted).map_or_else(String::new, |word| format!(" Or {}.", with_article(word)));
-    format!("{}.{either}{others}", shape_name(*main.what))
+    let own = match main.what {
+        Shape::ExponentialDecay => "exponential decay, or approach to the final value",
+        other => shape_name(*other),
+    };
+    format!("{own}.{either}{others}")
 }
 
 /// Another word for the same response as the first.
@@ -75,7 +79,8 @@ pub(super) fn judge(points: Points, accepted: &[Accepted<'_, Shape>], typed: Sha
 fn with_article(shape: Shape) -> String {
     match shape {
         Shape::Constant | Shape::PolynomialGrowth => shape_name(shape).to_owned(),
-        Shape::ExponentialDecay | Shape::ExponentialGrowth => format!("an {}", shape_name(shape)),
+        Shape::ExponentialDecay => "an exponential approach to its final value".to_owned(),
+        Shape::ExponentialGrowth => shape_name(shape).to_owned(),
         _ => format!("a {}", shape_name(shape)),
     }
 }

@@ -120,6 +120,7 @@ fn is_of_poles(feature: FeatureKind) -> bool {
             | FeatureKind::DampingRatio
             | FeatureKind::NaturalFrequencyRadS
             | FeatureKind::DampedFrequencyRadS
+            | FeatureKind::DcGain
     )
 }
 

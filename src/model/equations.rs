@@ -38,10 +38,16 @@ pub struct Model {
     pub outputs: Vec<String>,
 }
 
+fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ModelError {
     #[error(
-        "{equations} equations for {coordinates} coordinates: there must be as many of one as of the other"
+        "{} for {}: there must be as many of one as of the other",
+        counted(*.equations, "equation"),
+        counted(*.coordinates, "coordinate")
     )]
     Count { equations: usize, coordinates: usize },
     #[error("`{name}` cannot be a name: use letters, digits and `_`, and neither `pi` nor a function's name")]
@@ -306,7 +312,7 @@ mod tests {
     #[test]
     fn what_is_wrong_with_a_model() {
         check_errors(&[
-            (&["x"], &[], "0 equations for 1 coordinates", ""),
+            (&["x"], &[], "0 equations for 1 coordinate:", ""),
             (&["x"], &["m*x'' + k*X = F"], "equation 1: `X` is not a name", "did you mean `x`?"),
             (&["theta"], &["m*thta'' = F"], "`thta`", "did you mean `theta`?"),
             (&["x"], &["m*x''' = F"], "`x` is differentiated 3 times", ""),

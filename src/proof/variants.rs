@@ -166,7 +166,7 @@ fn how_hard(one: &LinearReference, asked: &[&Judged]) -> String {
                 Limit::Value(_) => "to a value".to_owned(),
                 other => other.words().to_owned(),
             };
-            words.push(format!("{name} response a {}, {end}", features.shape.words()));
+            words.push(format!("{name} response: {}, {end}", features.shape.words()));
         }
         if let Some(feature) = feature {
             let value = crate::grading::other_variant::value(features, feature);

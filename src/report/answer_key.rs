@@ -356,7 +356,7 @@ fn feature_rows(impulse: &Features, step: &Features, unit: &str) -> Vec<FeatureR
     };
     let optional = |v: Option<f64>, unit: &str| v.map_or("–".to_owned(), |v| quantity(v, 6, unit));
     let rows = vec![
-        row("Shape", &|f| crate::submission::shape_name(f.shape).to_owned()),
+        row("Shape", &|f| f.shape.words().trim_start_matches("a ").trim_start_matches("an ").to_owned()),
         row("Initial value", &|f| quantity(f.initial_value, 6, unit)),
         row("Final value", &|f| limit_words(f.final_value, unit).trim_start_matches("to ").to_owned()),
         row("Farthest", &|f| {

@@ -88,7 +88,7 @@ fn expected(reference: &Reference, check: &Check) -> String {
             Some(text(&quantity(value, 5, asked.unit.as_ref().map_or("", Unit::symbol))))
         }),
         Check::Shape { of, response } => {
-            main(of).and_then(|m| m.response(*response)).map(|known| text(shape_name(known.features.shape)))
+            main(of).and_then(|m| m.response(*response)).map(|known| text(known.features.shape.words()))
         }
         Check::Plot { .. } => Some(text("the reference curve below")),
         Check::Concepts { concepts, needed, .. } => {

@@ -18,6 +18,7 @@ use super::{
     Submission, TypedComplex, TypedFormula, Unreadable, nonlinearity_word, people, shape_word,
     stability_word,
 };
+use crate::lti::InputKind;
 use crate::names::nearest;
 use crate::source::{
     DecodeError, Finding, Node, SourceText, Span, Value, YamlError, decode, decode_within,
@@ -384,11 +385,22 @@ impl<'a> Reader<'a> {
             }
             FieldKind::Stability => {
                 let kind = Kind { name: "stability", code: "stability.unreadable", words: STABILITY_WORDS };
-                word(node, &kind, stability_word, stabilities_named).map(AnswerValue::Stability)
+                let read = word(node, &kind, stability_word, stabilities_named);
+                read.map(AnswerValue::Stability).map_err(|finding| {
+                    let lower = node.as_scalar().map(str::to_lowercase).unwrap_or_default();
+                    if lower.contains("not asymptotically") || lower.contains("not strictly") {
+                        let help = "Does it stay bounded? Write `marginally stable` if it does, and `unstable` if not.";
+                        return Box::new(finding.with_help(help));
+                    }
+                    finding
+                })
             }
             FieldKind::Shape => {
                 let kind = Kind { name: "a shape", code: "shape.unreadable", words: SHAPE_WORDS };
-                let read = word(node, &kind, shape_word, shapes_named);
+                // `rises exponentially` may be meant for either in the response to a step.
+                let step = field.response == Some(InputKind::Step);
+                let half = |text: &str| step && half_a_shape(text).is_some();
+                let read = word(node, &kind, |text| shape_word(text).filter(|_| !half(text)), shapes_named);
                 read.map(AnswerValue::Shape).map_err(|finding| {
                     match node.as_scalar().and_then(half_a_shape) {
                         Some(half) => Box::new(finding.with_help(half.help())),

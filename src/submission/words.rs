@@ -142,7 +142,9 @@ fn shape(text: &str) -> Option<Shape> {
     if words.has_any(HEDGES) || words.has_any(TURNS) {
         return None;
     }
-    let no_swing = words.take(NO_SWING);
+    // What does not overshoot has a value that it goes to.
+    let no_overshoot = words.take(NO_OVERSHOOT);
+    let no_swing = words.take(NO_SWING) || no_overshoot;
     let no_decay = words.take(NO_DECAY);
     let without_bound = words.take(WITHOUT_BOUND);
     if words.has_any(NEGATIONS) {
@@ -151,27 +153,22 @@ fn shape(text: &str) -> Option<Shape> {
     let starts = |stems: &[&str]| words.iter().any(|w| stems.iter().any(|s| w.starts_with(s)));
     let swing =
         starts(&["oscillat", "sinusoid", "swing", "ringing", "vibrat", "sine", "sinus", "cosine", "wave"]);
+    // What rises to a level does not grow for ever.
+    let up = words.has_any(&["rises", "rising", "rise", "increases", "increasing", "grows", "climbs"]);
+    let level = words.has_any(&["to", "towards", "toward", "until", "final"]) || no_overshoot;
+    let approach = up && level && !without_bound;
     let decay = words.has_any(DECAYS)
+        || approach
+        || no_overshoot
         || starts(&[
             "decay", "damped", "damping", "shrink", "diminish", "converg", "settl", "decreas", "fading",
             "fade", "attenuat", "subsid", "approach",
         ]);
-    // What rises to a level does not grow for ever.
-    let rises = words.has_any(&["rises", "rising"]) && !words.has_any(&["to", "towards", "toward", "final"]);
+    let rises = words.has_any(&["rises", "rising"]);
     let growth = without_bound
-        || rises
+        || (!approach && (rises || starts(&["grow", "increas"])))
         || words.has_any(GROWS)
-        || starts(&[
-            "grow",
-            "increas",
-            "diverg",
-            "explod",
-            "expand",
-            "escalat",
-            "unbounded",
-            "runaway",
-            "unstable",
-        ]);
+        || starts(&["diverg", "explod", "expand", "escalat", "unbounded", "runaway", "unstable"]);
     let steady = no_decay
         || starts(&[
             "sustain",
@@ -195,7 +192,10 @@ fn shape(text: &str) -> Option<Shape> {
     if words.has_any(&["underdamped", "under damped"]) {
         return (!growth && !steady && !no_swing).then_some(Shape::DecayingOscillation);
     }
-    if words.has_any(&["overdamped", "over damped", "critically damped"]) {
+    if words.has_any(&["overshoot", "overshoots", "overshooting"]) && !swing {
+        return None;
+    }
+    if words.has_any(&["overdamped", "over damped", "critically damped", "s shaped", "s shape", "s curve"]) {
         return (!growth && !steady && !swing).then_some(Shape::ExponentialDecay);
     }
     if swing {
@@ -216,6 +216,11 @@ fn shape(text: &str) -> Option<Shape> {
         (false, true, false) if polynomial => (!exponential).then_some(Shape::PolynomialGrowth),
         (false, true, false) => (exponential || without_bound || starts(&["diverg", "runaway", "unbounded"]))
             .then_some(Shape::ExponentialGrowth),
+        (false, false, false)
+            if !polynomial && (starts(&["aperiodic", "pt1"]) || words.has_any(FIRST_ORDER)) =>
+        {
+            Some(Shape::ExponentialDecay)
+        }
         (false, false, false) if polynomial && !exponential => Some(Shape::PolynomialGrowth),
         (false, false, true) if words.has_any(&["undamped"]) => Some(Shape::SustainedOscillation),
         (false, false, true) if !no_decay && !exponential && !polynomial => Some(Shape::Constant),
@@ -281,11 +286,19 @@ pub(super) fn half_a_shape(text: &str) -> Option<HalfShape> {
         "behaviour",
         "behavior",
         "like",
+        "rise",
+        "rises",
+        "rising",
+        "increase",
+        "up",
+        "step",
+        "goes",
     ];
     let words = Words::new(text)?;
     let mut words = words.iter().filter(|word| !FILLERS.contains(word));
     match (words.next()?, words.next()) {
         ("exponential" | "exponentially" | "exponentials", None) => Some(HalfShape::Exponential),
+        (word, None) if word.starts_with("monoton") => Some(HalfShape::Exponential),
         (word, None)
             if ["oscillat", "sinusoid", "swing", "sine"].iter().any(|stem| word.starts_with(stem)) =>
         {
@@ -337,6 +350,11 @@ const CAUSES: &[&str] = &[
     " since ",
     ", as ",
     " as the ",
+    " as both ",
+    " as all ",
+    " as its ",
+    " as no ",
+    " as one ",
     " as it ",
     " as there ",
 ];
@@ -481,6 +499,16 @@ const STABILITIES: &[(Stability, &[&str])] = &[
             "stable in the sense of lyapunov",
             "limit of stability",
             "verge of stability",
+            "border of stability",
+            "boundary of stability",
+            "edge of stability",
+            "stability limit",
+            "stability boundary",
+            "stability border",
+            "borderline stability",
+            "limit stable",
+            "limit stability",
+            "indifferently stable",
             "marginal",
             "marginally",
         ],
@@ -507,7 +535,6 @@ const NO_SWING: &[&str] = &[
     "without oscillation",
     "without oscillating",
     "without swinging",
-    "without overshoot",
     "no oscillations",
     "no oscillation",
     "does not oscillate",
@@ -517,6 +544,15 @@ const NO_SWING: &[&str] = &[
     "non oscillating",
     "non oscillatory",
     "nonoscillatory",
+];
+const NO_OVERSHOOT: &[&str] = &[
+    "without any overshoot",
+    "without overshoot",
+    "without overshooting",
+    "with no overshoot",
+    "no overshoot",
+    "does not overshoot",
+    "not overshoot",
 ];
 const NO_DECAY: &[&str] = &[
     "without any damping",
@@ -535,6 +571,8 @@ const NO_DECAY: &[&str] = &[
     "constant amplitude",
     "fixed amplitude",
 ];
+const FIRST_ORDER: &[&str] =
+    &["first order like", "first order lag", "first order step response", "first order rise"];
 const DECAYS: &[&str] = &[
     "dies out",
     "die out",
@@ -568,11 +606,48 @@ const WITHOUT_BOUND: &[&str] = &[
 const NONLINEARITIES: &[(NonlinearityKind, &[&str])] = &[
     (
         NonlinearityKind::Saturation,
-        &["saturation", "saturated", "saturating", "saturates", "saturate", "clipping", "clipped", "limiter"],
+        &[
+            "saturation",
+            "saturated",
+            "saturating",
+            "saturates",
+            "saturate",
+            "clipping",
+            "clipped",
+            "clips",
+            "limiter",
+            "limiting",
+            "limitation",
+            "hard limit",
+            "hard limiter",
+            "hard limiting",
+            "amplitude limit",
+            "amplitude limiter",
+            "amplitude limiting",
+            "amplitude limitation",
+            "voltage limit",
+            "voltage limitation",
+            "output limit",
+            "output limitation",
+            "clamping",
+            "clamped",
+        ],
     ),
     (
         NonlinearityKind::DeadZone,
-        &["dead zone", "deadzone", "dead zones", "dead band", "deadband", "dead space", "deadspace"],
+        &[
+            "dead zone",
+            "deadzone",
+            "dead zones",
+            "dead band",
+            "deadband",
+            "dead space",
+            "deadspace",
+            "dead region",
+            "insensitive zone",
+            "insensitivity zone",
+            "neutral zone",
+        ],
     ),
     (
         NonlinearityKind::Backlash,
@@ -585,6 +660,12 @@ const NONLINEARITIES: &[(NonlinearityKind, &[&str])] = &[
             "lost motion",
             "slack",
             "gear slop",
+            "gear lash",
+            "free play",
+            "freeplay",
+            "mechanical play",
+            "clearance",
+            "gear clearance",
             "backlash deadband",
             "backlash dead band",
             "backlash dead zone",
@@ -592,15 +673,76 @@ const NONLINEARITIES: &[(NonlinearityKind, &[&str])] = &[
             "backlash hysteresis",
         ],
     ),
-    (NonlinearityKind::Relay, &["relay", "on off", "bang bang", "two position"]),
+    (
+        NonlinearityKind::Relay,
+        &[
+            "relay",
+            "on off",
+            "bang bang",
+            "two position",
+            "two point",
+            "two step",
+            "two level",
+            "ideal relay",
+            "ideal switch",
+            "two level relay",
+            "two position relay",
+            "two point relay",
+            "on off relay",
+            "relay without hysteresis",
+            "relay with no hysteresis",
+            "ideal relay without hysteresis",
+            "ideal relay with no hysteresis",
+            "signum",
+            "sign function",
+            "signum function",
+            "sgn",
+            "sgn function",
+        ],
+    ),
     (
         NonlinearityKind::CoulombFriction,
-        &["coulomb friction", "coulomb", "dry friction", "stiction", "static friction", "friction"],
+        &[
+            "coulomb friction",
+            "coulomb",
+            "coulombic",
+            "coulombic friction",
+            "coulomb dry friction",
+            "dry friction",
+            "stiction",
+            "static friction",
+            "sliding friction",
+            "kinetic friction",
+            "stick friction",
+            "coulomb static friction",
+            "friction",
+        ],
     ),
     (NonlinearityKind::Hysteresis, &["hysteresis", "hysteretic"]),
     (
         NonlinearityKind::Quantization,
-        &["quantization", "quantisation", "quantizer", "quantiser", "quantized", "quantised", "quantizing"],
+        &[
+            "quantization",
+            "quantisation",
+            "quantizer",
+            "quantiser",
+            "quantized",
+            "quantised",
+            "quantizing",
+            "quantization error",
+            "quantisation error",
+            "quantization noise",
+            "rounding",
+            "rounding off",
+            "rounding error",
+            "round off",
+            "roundoff",
+            "staircase",
+            "digitization",
+            "digitisation",
+            "finite resolution",
+            "limited resolution",
+        ],
     ),
     (
         NonlinearityKind::RateLimit,
@@ -610,6 +752,27 @@ const NONLINEARITIES: &[(NonlinearityKind, &[&str])] = &[
             "rate limiting",
             "rate limited",
             "slew rate limit",
+            "slew rate limiter",
+            "slew rate limiting",
+            "slew rate limitation",
+            "slew rate saturation",
+            "slew limit",
+            "limited slew rate",
+            "limited rate",
+            "limited speed",
+            "rate limitation",
+            "rate limits",
+            "rate saturation",
+            "rate of change limit",
+            "rate of change limiter",
+            "velocity limit",
+            "velocity limiter",
+            "velocity limitation",
+            "velocity saturation",
+            "speed limit",
+            "speed limiter",
+            "speed limitation",
+            "speed saturation",
             "rate limit",
             "slew rate",
         ],
@@ -706,6 +869,28 @@ mod tests {
                 ("not unstable", None),
                 ("not marginally stable", None),
                 ("not asymptotically stable", None),
+                ("stable, both poles in the LHP", Some(AsymptoticallyStable)),
+                ("stable (both poles negative)", Some(AsymptoticallyStable)),
+                ("stable (all poles in left half plane)", Some(AsymptoticallyStable)),
+                ("stable - both real parts are negative", Some(AsymptoticallyStable)),
+                ("stable as both poles are in the left half of the s-plane", Some(AsymptoticallyStable)),
+                ("stable, no RHP poles", Some(AsymptoticallyStable)),
+                ("stable, no poles in the right half-plane", Some(AsymptoticallyStable)),
+                ("overdamped and stable", Some(AsymptoticallyStable)),
+                ("unstable, double pole at the origin", Some(Unstable)),
+                ("unstable (double integrator)", Some(Unstable)),
+                ("it is not stable: double pole at 0", Some(Unstable)),
+                ("not BIBO stable", Some(Unstable)),
+                ("marginally stable (pole at the origin)", Some(MarginallyStable)),
+                ("marginally stable, simple pole at the origin (integrator)", Some(MarginallyStable)),
+                ("limit stable", Some(MarginallyStable)),
+                ("on the stability limit", Some(MarginallyStable)),
+                ("at the limit of stability", Some(MarginallyStable)),
+                ("double integrator", None),
+                ("both poles negative", None),
+                ("stable? negative", None),
+                ("not in the stability limit", None),
+                ("no unstable poles", None),
                 ("conditionally stable", None),
                 ("marginally unstable", None),
                 ("stable or unstable", None),
@@ -864,6 +1049,29 @@ mod tests {
                 ("dead zone because of friction, but really backlash", None),
                 ("dead zone as well as backlash", None),
                 ("because of backlash a dead zone", None),
+                ("ideal relay", Some(Relay)),
+                ("ideal relay without hysteresis", Some(Relay)),
+                ("two-point controller", Some(Relay)),
+                ("two-level relay", Some(Relay)),
+                ("signum function", Some(Relay)),
+                ("relay with hysteresis", None),
+                ("free play", Some(Backlash)),
+                ("Coulomb (dry) friction", Some(CoulombFriction)),
+                ("sliding friction", Some(CoulombFriction)),
+                ("Coulombic friction", Some(CoulombFriction)),
+                ("rounding", Some(Quantization)),
+                ("quantization (staircase)", Some(Quantization)),
+                ("A/D quantization", Some(Quantization)),
+                ("rounding of the A/D converter", Some(Quantization)),
+                ("rate limitation", Some(RateLimit)),
+                ("rate saturation", Some(RateLimit)),
+                ("velocity saturation", Some(RateLimit)),
+                ("speed limit of the actuator", Some(RateLimit)),
+                ("dead band", Some(DeadZone)),
+                ("insensitive zone", Some(DeadZone)),
+                ("hard limiter", Some(Saturation)),
+                ("rate limit and saturation", None),
+                ("no free play", None),
                 ("due to friction", None),
                 ("", None),
             ],
@@ -905,7 +1113,26 @@ mod tests {
                 ("grows without bound", Some(ExponentialGrowth)),
                 ("diverges", Some(ExponentialGrowth)),
                 ("rises exponentially", Some(ExponentialGrowth)),
-                ("rises exponentially to a final value", None),
+                ("rises exponentially to a final value", Some(ExponentialDecay)),
+                ("rises monotonically to 0.0999 rad/s", Some(ExponentialDecay)),
+                ("rises monotonically towards the final value", Some(ExponentialDecay)),
+                ("rises exponentially to infinity", Some(ExponentialGrowth)),
+                ("increases exponentially to infinity", Some(ExponentialGrowth)),
+                ("rises linearly to 5", None),
+                ("rises to a value and overshoots", None),
+                ("rises to its value with overshoot", None),
+                ("aperiodic", Some(ExponentialDecay)),
+                ("aperiodic rise without overshoot", Some(ExponentialDecay)),
+                ("aperiodic growth", Some(ExponentialGrowth)),
+                ("S-shaped", Some(ExponentialDecay)),
+                ("settles without overshoot", Some(ExponentialDecay)),
+                ("rises without overshoot", Some(ExponentialDecay)),
+                ("overdamped, no oscillation", Some(ExponentialDecay)),
+                ("first-order-like", Some(ExponentialDecay)),
+                ("exponential approach", Some(ExponentialDecay)),
+                ("monotonic rise", None),
+                ("grows linearly to infinity", Some(PolynomialGrowth)),
+                ("not aperiodic", None),
                 ("the opposite of exponential decay", None),
                 ("hardly a decaying oscillation", None),
                 ("exponential growth is wrong", None),
@@ -952,6 +1179,11 @@ mod tests {
             ("exponential", Some(HalfShape::Exponential)),
             ("An exponential curve.", Some(HalfShape::Exponential)),
             ("oscillates", Some(HalfShape::Oscillation)),
+            ("exponential rise", Some(HalfShape::Exponential)),
+            ("rises exponentially", Some(HalfShape::Exponential)),
+            ("monotonic rise", Some(HalfShape::Exponential)),
+            ("monotone", Some(HalfShape::Exponential)),
+            ("rises", None),
             ("decaying", None),
             ("exponential oscillation", None),
             ("", None),
