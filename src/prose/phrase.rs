@@ -365,8 +365,12 @@ fn denies_within(sentence: &[Token], place: usize) -> bool {
 }
 
 /// `not only`, `no doubt`.
+///
+/// Neither does `what the other lacks is` deny what follows: the verb ends the clause.
 fn excused(sentence: &[Token], place: usize) -> bool {
-    sentence.get(place + 1).is_some_and(|next| NO_DENIAL_BEFORE.contains(&next.text.as_str()))
+    let next = sentence.get(place + 1).map_or("", |next| next.text.as_str());
+    let lacks = matches!(sentence[place].text.as_str(), "lack" | "lacks");
+    NO_DENIAL_BEFORE.contains(&next) || (lacks && matches!(next, "is" | "are" | "was" | "were"))
 }
 
 /// How many denials in the clause before `first` reach it.
@@ -530,6 +534,14 @@ mod tests {
                 ("It oscillates; an oscillation", "+oscillates +oscillation"),
                 ("Self-oscillating", "+oscillating"),
                 ("oscil", ""),
+            ],
+        );
+        check(
+            "origin",
+            &[
+                ("The pole that the other lacks is the origin.", "+origin"),
+                ("It lacks an origin.", "-origin"),
+                ("It lacks the origin, which is clear.", "-origin"),
             ],
         );
         check("stable", &[("It is unstable.", ""), ("It is stable.", "+stable"), ("UNSTABLE", "")]);
