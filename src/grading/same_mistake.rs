@@ -6,10 +6,10 @@ use super::{Evidence, Explanation, Guard, Verdict};
 use crate::algebra::Rational;
 use crate::lab::{Check, Criterion, LabDefinition, Points, Question, SystemRef};
 
-/// Gives back to a later transfer function what it lost by a mistake that was charged at an earlier one of the same model.
+/// Gives back to a later transfer function what it lost by a mistake that was charged at an earlier one.
 ///
 /// It is the same mistake when what explains the later function is part of what explains the earlier one, and when a common
-/// factor is left in once more. Where another mistake came with it, the later function is held against what the earlier
+/// factor is left in once more. Of another model only the value of a parameter that both have can be mistaken again. Where another mistake came with it, the later function is held against what the earlier
 /// mistake alone leads to. The lab says what part of the points is given back.
 pub(super) fn spare(lab: &LabDefinition, grader: &Grader<'_>, earned: Earned<'_>, marks: &mut [Vec<Mark>]) {
     let part = &lab.follow_through.same_mistake;
@@ -18,15 +18,19 @@ pub(super) fn spare(lab: &LabDefinition, grader: &Grader<'_>, earned: Earned<'_>
     }
     let functions = functions(lab);
     for (place, later) in functions.iter().enumerate() {
-        let earlier: Vec<_> =
-            functions[..place].iter().filter(|earlier| earlier.of.model == later.of.model).collect();
+        // Those of the same model first.
+        let (own, others): (Vec<_>, Vec<_>) =
+            functions[..place].iter().partition(|earlier| earlier.of.model == later.of.model);
+        let earlier = || own.iter().chain(&others).copied();
         let charged_by = |mistake: Mistake| {
-            let of = |earlier: &&&Function<'_>| match mistake {
-                Mistake::NotCancelled => true,
-                Mistake::Explained => is_same(later.explanations(marks), earlier.explanations(marks)),
+            let of = |earlier: &&Function<'_>| match mistake {
+                Mistake::NotCancelled => earlier.of.model == later.of.model,
+                Mistake::Explained => {
+                    let about = Shared::between(later, earlier);
+                    is_same(later.explanations(marks), earlier.explanations(marks), about)
+                }
             };
-            earlier
-                .iter()
+            earlier()
                 .filter(of)
                 .find_map(|earlier| Some((earlier.question, earlier.root(mistake, marks, earned)?)))
         };
@@ -34,7 +38,7 @@ pub(super) fn spare(lab: &LabDefinition, grader: &Grader<'_>, earned: Earned<'_>
         let explained = charged_by(Mistake::Explained);
         let again = match explained {
             Some(_) => None,
-            None => earlier.iter().find_map(|earlier| {
+            None => earlier().find_map(|earlier| {
                 let root = earlier.root(Mistake::Explained, marks, earned)?;
                 Some((earlier.question, root, made_again(grader, later, earlier, marks)?))
             }),
@@ -137,7 +141,10 @@ fn made_again(
     let base: Points = later.marks(marks).map(|(_, mark)| mark.earned).sum();
     let mut best: Option<Vec<Mark>> = None;
     for explanation in earlier.explanations(marks).iter().filter(|one| is_forgivable(one)) {
-        let all: Vec<&str> = explanation.mistakes.iter().map(String::as_str).collect();
+        let all = Shared::between(later, earlier).mistakes(explanation);
+        if all.is_empty() {
+            continue;
+        }
         let each = all.chunks(1).filter(|_| all.len() > 1);
         for mistakes in std::iter::once(all.as_slice()).chain(each) {
             let Some(next) = grader.with_mistakes(&criteria, later.of, mistakes) else { continue };
@@ -154,10 +161,37 @@ fn is_forgivable(one: &Explanation) -> bool {
     !one.mistakes.is_empty() && !one.code.split('+').any(|code| code == "point.other")
 }
 
-fn is_same(later: &[Explanation], earlier: &[Explanation]) -> bool {
+fn is_same(later: &[Explanation], earlier: &[Explanation], shared: Shared) -> bool {
     later.iter().filter(|one| is_forgivable(one)).any(|later| {
-        earlier.iter().any(|earlier| later.mistakes.iter().all(|change| earlier.mistakes.contains(change)))
+        let all = |earlier: &Explanation| {
+            let before = shared.mistakes(earlier);
+            later.mistakes.iter().all(|change| before.contains(&change.as_str()))
+        };
+        earlier.iter().any(all)
     })
+}
+
+/// What two transfer functions have in common, in which the same mistake can be made.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Shared {
+    Model,
+    /// Parameters have one value in all of a lab.
+    Parameters,
+}
+
+impl Shared {
+    fn between(later: &Function<'_>, earlier: &Function<'_>) -> Self {
+        if later.of.model == earlier.of.model { Self::Model } else { Self::Parameters }
+    }
+
+    /// The mistakes of an explanation that can be made in both.
+    fn mistakes(self, one: &Explanation) -> Vec<&str> {
+        let codes = one.code.split('+').map(Some).chain(std::iter::repeat(None));
+        let both = one.mistakes.iter().zip(codes).filter(|(_, code)| {
+            self == Self::Model || code.is_some_and(|code| code.starts_with("parameter."))
+        });
+        both.map(|(change, _)| change.as_str()).collect()
+    }
 }
 
 /// What an earlier mistake cost again.
@@ -226,5 +260,59 @@ fn spared(criterion: &Criterion, base: &Mark, part: &Rational, back: Back<'_>) -
         spared: given,
         withheld: Points(lost.0 - given.0),
         ..base.clone()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::grading::{Catalogue, grade};
+    use crate::lab;
+    use crate::reference::Reference;
+    use crate::submission::{NoFiles, read};
+
+    /// The fast motor, and the same without its inductance: two models of the same parameters.
+    #[test]
+    fn a_parameter_mistaken_in_one_model_is_the_same_mistake_in_another() {
+        let lab = lab::load("dc-motor").unwrap();
+        let reference = Reference::compute(&lab).unwrap();
+        let catalogue = Catalogue::new(&lab, &reference);
+        let cubic = |s2: &str, s: &str| format!("0.0274/(8.8781e-12 s^3 + {s2} s^2 + {s} s)");
+        for (what, whole, reduced, code) in [
+            (
+                "R is 40 Ω in both",
+                cubic("1.29136e-4", "8.91068e-4"),
+                "0.0274/(1.29136e-4 s^2 + 8.91068e-4 s)",
+                "denominator.same_mistake",
+            ),
+            (
+                "R is 40 Ω in the second only",
+                cubic("1.291361e-5", "7.64791e-4"),
+                "0.0274/(1.29136e-4 s^2 + 8.91068e-4 s)",
+                "denominator.value",
+            ),
+            (
+                "R is 40 Ω, then 400 Ω",
+                cubic("1.29136e-4", "8.91068e-4"),
+                "0.0274/(1.29136e-3 s^2 + 2.153842e-3 s)",
+                "denominator.value",
+            ),
+            // −b R + K²: a sign in each of two sets of equations is two signs
+            (
+                "the friction's sign in both",
+                cubic("1.291360e-5", "7.36729e-4"),
+                "0.0274/(1.29136e-5 s^2 + 7.36729e-4 s)",
+                "denominator.one_slip",
+            ),
+        ] {
+            let text = format!(
+                "lab: dc-motor\nanswers:\n  position.transfer_function: {whole}\n  reduction.transfer_function: {reduced}\n"
+            );
+            let submission = read("x", "x.yaml", text.as_bytes(), &lab.sheet, &NoFiles);
+            let card = grade(&lab, &reference, &catalogue, &submission, None);
+            let items = card.questions.iter().flat_map(|question| &question.items);
+            let item =
+                items.into_iter().find(|item| item.id == "reduction.transfer_function.denominator").unwrap();
+            assert_eq!(item.code, code, "{what}: {:?}", item.evidence);
+        }
     }
 }
