@@ -2,7 +2,7 @@ use super::Evidence;
 use super::accepted::{Accepted, also};
 use super::closeness::{inward, magnitude, percent};
 use super::mark::{Mark, half, share};
-use super::scale::{Coefficient, Fit, Part, Scaled, scalings};
+use super::scale::{self, Coefficient, Fit, Part, Scaled, scalings};
 use crate::algebra::{Polynomial, Rational, polynomial_text, significant, to_f64};
 use crate::english::capitalized;
 use crate::lab::{Check, Criterion, Points, Tolerance};
@@ -71,6 +71,11 @@ pub(super) fn read_exactly(
 ) -> Option<ExactReading> {
     let best = best_reading(criteria, accepted, typed)?;
     let wrong = best.scaled.coefficients.iter().filter(|coefficient| coefficient.fit != Fit::Right);
+    let at_origin = (best.origin != 0).then_some((
+        Part::Denominator,
+        best.accepted.what.den.trailing_zeros(),
+        if best.origin > 0 { Fit::Missing } else { Fit::Extra },
+    ));
     let structure = match best.structure() {
         "structure.not_cancelled" => {
             "Your function is of the right form once what numerator and denominator share is cancelled, but it was left in \
@@ -82,7 +87,10 @@ pub(super) fn read_exactly(
     Some(ExactReading {
         scores: criteria.iter().map(|criterion| best.score(criterion)).collect(),
         supported: best.scaled.supported,
-        off: wrong.map(|coefficient| (coefficient.part, coefficient.power, coefficient.fit)).collect(),
+        off: wrong
+            .map(|coefficient| (coefficient.part, coefficient.power, coefficient.fit))
+            .chain(at_origin)
+            .collect(),
         structure,
     })
 }
@@ -117,6 +125,9 @@ struct Reading<'a> {
     shared: Polynomial,
     /// Coefficients of what is compared: `short`, or what was typed.
     scaled: Scaled,
+    /// How many factors s the denominator has too many (too few, when negative), everything else in it being right: they are
+    /// left out of what is compared, so that it still tells the scale of the numerator.
+    origin: isize,
 }
 
 fn readings<'a>(
@@ -155,16 +166,40 @@ fn readings<'a>(
                     (&written.num, &written.den),
                     (&num_tolerance, &den_tolerance),
                 );
-                all.extend(scalings.into_iter().map(|scaled| Reading {
+                let reading = |(scaled, origin)| Reading {
                     accepted: *one,
                     short: short.clone(),
                     shared: shared.clone(),
                     scaled,
-                }));
+                    origin,
+                };
+                all.extend(scalings.into_iter().map(|scaled| reading((scaled, 0))));
+                if let Some((den, origin)) = at_the_origin_of(&one.what.den, &written.den) {
+                    let moved = scale::scalings(
+                        (&one.what.num, &one.what.den),
+                        (&written.num, &den),
+                        (&num_tolerance, &den_tolerance),
+                    );
+                    let right = moved.into_iter().filter(|scaled| scaled.is_right(Part::Denominator));
+                    all.extend(right.map(|scaled| reading((scaled, origin))));
+                }
             }
         }
     }
     all
+}
+
+/// `written` with as many factors s as `expected` has, and how many were too many; `None` when it has just as many, or
+/// nothing but powers of s was expected: of these any is right up to a factor.
+fn at_the_origin_of(expected: &Polynomial, written: &Polynomial) -> Option<(Polynomial, isize)> {
+    let (want, have) = (expected.trailing_zeros(), written.trailing_zeros());
+    if want == have || want == expected.degree() || written.is_zero() {
+        return None;
+    }
+    let power = |count: usize| Polynomial::monomial(Rational::ONE, count);
+    let moved =
+        if want > have { written * &power(want - have) } else { written.exact_quotient(&power(have - want)) };
+    Some((moved, isize::try_from(have).ok()? - isize::try_from(want).ok()?))
 }
 
 /// Without coefficients below 1e-12 of the largest of their polynomial, which programs leave behind where they mean 0;
@@ -234,6 +269,9 @@ impl Reading<'_> {
     }
 
     fn denominator(&self) -> &'static str {
+        if self.origin != 0 {
+            return "denominator.terms";
+        }
         if self.scaled.is_right(Part::Denominator) {
             return "right";
         }
@@ -351,6 +389,15 @@ impl Reading<'_> {
             .map(|coefficient| self.say(coefficient, &tolerance.relative))
             .collect();
         let reason = match code {
+            "denominator.terms" if self.origin != 0 => format!(
+                "There {} in it; everything else in it is right.",
+                match self.origin {
+                    1 => "is one factor s too many".to_owned(),
+                    -1 => "is one factor s too few".to_owned(),
+                    many @ 2.. => format!("are {many} factors s too many"),
+                    few => format!("are {} factors s too few", few.unsigned_abs()),
+                }
+            ),
             "right" if self.scaled.factor == Rational::ONE => {
                 format!("Each coefficient of the {name} is within {}.", percent(&tolerance.relative))
             }
@@ -537,6 +584,46 @@ mod tests {
 
     const S: (i64, &str) = (100, "right");
     const R: (i64, &str) = (200, "right");
+
+    /// What is right of a function with a factor s lost or added keeps its marks.
+    #[test]
+    fn a_factor_s_too_many_or_too_few() {
+        const WRONG: (i64, &str) = (0, "denominator.terms");
+        const ORDER: (i64, &str) = (0, "structure.order");
+        check(
+            &[("", function("2 3", "0.5 4 7 0"))],
+            &[
+                ("exact", "2 3", "0.5 4 7 0", [S, R, R]),
+                ("the integrator lost", "2 3", "0.5 4 7", [ORDER, R, WRONG]),
+                ("lost, in another scale", "4 6", "1 8 14", [ORDER, R, WRONG]),
+                ("lost, and the numerator off", "2 5", "0.5 4 7", [ORDER, (0, "numerator.value"), WRONG]),
+                ("twice", "2 3", "0.5 4 7 0 0", [ORDER, R, WRONG]),
+                ("lost, and a slip beside it", "2 3", "0.5 4 9", [ORDER, (0, "numerator.value"), WRONG]),
+            ],
+        );
+        check(
+            &[("", function("2", "0.5 4"))],
+            &[("an integrator too many", "2", "0.5 4 0", [ORDER, R, WRONG])],
+        );
+        let hanging = [("", function("-0.06 0", "0.0132 0.0024 0.41202 0.05886"))];
+        check(
+            &hanging,
+            &[
+                (
+                    "its zero lost",
+                    "-0.06",
+                    "0.0132 0.0024 0.41202 0.05886",
+                    [ORDER, (0, "numerator.terms"), R],
+                ),
+                (
+                    "its zero cancelled by a pole",
+                    "-0.06 0",
+                    "0.0132 0.0024 0.41202 0.05886 0",
+                    [ORDER, R, WRONG],
+                ),
+            ],
+        );
+    }
 
     #[test]
     fn the_pendulum_hanging() {
