@@ -8,7 +8,7 @@ use super::own::OwnModel;
 use super::own_claims::{self, Behaviour};
 use super::own_poles::OwnPoles;
 use super::truth::Truth;
-use super::{Evidence, Verdict, stability};
+use super::{Evidence, Explanation, Verdict, stability};
 use crate::algebra::Rational;
 use crate::lab::{Check, Criterion, Curve, Described, LabDefinition, Points, Question, SystemRef};
 use crate::lti::TransferFunction;
@@ -167,6 +167,9 @@ impl Follower<'_> {
             let guard = ways.first().map_or(Guard::Order, |short| {
                 guard::of_function(&short.function, self.grader.reference, function.of, &tolerance)
             });
+            // What a slip leads to as well is no proof of another operating point.
+            let guard =
+                if guard == Guard::OtherPoint && function.may_be_a_slip { Guard::Passed } else { guard };
             (guard, ways)
         });
         let root = function.root.clone();
@@ -240,6 +243,7 @@ impl Follower<'_> {
         if earned <= base.earned {
             return None;
         }
+        let doubtful = premise.own == OWN_FUNCTION && self.function.is_some_and(|own| own.may_be_a_slip);
         let charged = match &premise.charged_in {
             None => format!("{name}, where the mistake was charged"),
             Some(question) => format!("{name}, for a mistake that was charged in {question}"),
@@ -253,12 +257,17 @@ impl Follower<'_> {
             let part = percent(&self.criterion.follow_through);
             reason.push_str(&format!(" That earns {part} of the points."));
         }
+        if doubtful {
+            reason.push_str(
+                " That one may be what belongs to another operating point or come from a slip; which of them, a person will see.",
+            );
+        }
         Some(Mark {
             verdict: if earned == points { Verdict::Right } else { Verdict::Partly },
             code: follows(&self.criterion.check),
             earned,
             evidence: Evidence { expected: expected(), reason, ..own.evidence.clone() },
-            provisional: base.provisional || own.provisional,
+            provisional: base.provisional || own.provisional || doubtful,
             follow_through: follow_through(true),
             spared: Points(earned.0 - base.earned.0),
             withheld: Points(own.earned.0 - earned.0),
@@ -419,6 +428,8 @@ struct OwnFunction<'a> {
     field: &'a str,
     typed: &'a TransferFunction,
     root: Option<String>,
+    /// Another operating point explains it, and a single slip does as well.
+    may_be_a_slip: bool,
     /// Whether it may be followed, and the ways to take it; worked out when it is needed, and once.
     model: OnceCell<(Guard, Vec<OwnModel>)>,
 }
@@ -447,8 +458,20 @@ fn own_functions<'a>(
             };
             let judged = asked.criteria.iter().zip(marks).filter(|(other, _)| same(other));
             let root = judged.clone().find_map(|(other, mark)| root_of(other, mark, earned));
+            let diagnosed = judged.clone().find_map(|(_, mark)| mark.diagnosis.as_ref());
+            let explanations = diagnosed.map_or(&[][..], |diagnosis| &diagnosis.explanations);
+            let is_other = |one: &Explanation| one.code == "point.other";
+            let may_be_a_slip = explanations.iter().any(is_other) && !explanations.iter().all(is_other);
             let field = criterion.field.as_str();
-            found.push(OwnFunction { of, question, field, typed, root, model: OnceCell::new() });
+            found.push(OwnFunction {
+                of,
+                question,
+                field,
+                typed,
+                root,
+                may_be_a_slip,
+                model: OnceCell::new(),
+            });
         }
     }
     found

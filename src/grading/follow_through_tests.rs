@@ -586,3 +586,20 @@ fn the_right_word_is_never_worse_than_a_wrong_one() {
         }
     }
 }
+
+/// Twice the slope of each root at 16 cm is that at 4 cm: the missing 1/2 is told beside the other point, and nobody is refused.
+#[test]
+fn what_may_be_a_slip_is_no_other_point_for_certain() {
+    let lab = lab::load("coupled-tanks").unwrap();
+    let reference = Reference::compute(&lab).unwrap();
+    let catalogue = Catalogue::new(&lab, &reference);
+    let text = "lab: coupled-tanks\nanswers:\n  work.transfer_function: 6.66667/(19200s^2 + 2466.67s + 25)\n  work.poles: {poles: \
+                [-0.011093, -0.11738]}\n";
+    let submission = read("x", "x.yaml", text.as_bytes(), &lab.sheet, &NoFiles);
+    let card = grade(&lab, &reference, &catalogue, &submission, None);
+    let diagnosis = items(&card).find_map(|item| item.diagnosis.as_ref()).unwrap();
+    let codes: Vec<&str> = diagnosis.explanations.iter().map(|one| one.code.as_str()).collect();
+    assert_eq!(codes, ["point.other", "factor.slope"], "{diagnosis:#?}");
+    let poles = items(&card).find(|item| item.id == "work.poles.poles" || item.id == "work.poles").unwrap();
+    assert_eq!((poles.code, poles.provisional), ("poles.follows", true), "{:?}", poles.evidence);
+}

@@ -53,9 +53,32 @@ impl Equilibrium {
 
     /// The value at rest of any name in the equations.
     pub(super) fn lookup(&self, parameters: &ParameterValues, name: &str, primes: u8) -> Option<Exact> {
+        let name = name.strip_suffix(AT_REST).unwrap_or(name);
         let parameter = || parameters.get(name).filter(|_| primes == 0).cloned();
         self.value(name, primes).or_else(parameter)
     }
+}
+
+/// Behind a name: what it is worth at rest, which nothing moves. No name in a lab ends so.
+pub(super) const AT_REST: char = '\0';
+
+/// The same with every name standing for its value at rest.
+pub(super) fn at_rest(node: &Expression) -> Expression {
+    let inner = |child: &Expression| Box::new(at_rest(child));
+    let kind = match &node.kind {
+        NodeKind::Symbol { name, primes } => {
+            NodeKind::Symbol { name: format!("{name}{AT_REST}"), primes: *primes }
+        }
+        NodeKind::Number(_) | NodeKind::Pi => node.kind.clone(),
+        NodeKind::Negate(a) => NodeKind::Negate(inner(a)),
+        NodeKind::Call(function, a) => NodeKind::Call(*function, inner(a)),
+        NodeKind::Add(a, b) => NodeKind::Add(inner(a), inner(b)),
+        NodeKind::Subtract(a, b) => NodeKind::Subtract(inner(a), inner(b)),
+        NodeKind::Multiply(a, b) => NodeKind::Multiply(inner(a), inner(b)),
+        NodeKind::Divide(a, b) => NodeKind::Divide(inner(a), inner(b)),
+        NodeKind::Power(a, b) => NodeKind::Power(inner(a), inner(b)),
+    };
+    Expression { kind, start: node.start, end: node.end }
 }
 
 /// Of the sum of the sizes of an equation's terms.

@@ -22,6 +22,7 @@ pub use compare::{Comparison, ComparisonRun, ComparisonSample, compare, compare_
 pub use doubt::Doubts;
 pub use equations::{Coordinate, Equation, Model, ModelError};
 pub use equilibrium::Equilibrium;
+use equilibrium::{AT_REST, at_rest};
 pub use exact::Exact;
 pub use letters::{
     AtRest, LetterAgreement, LetterAtRest, LetterDerivation, LetterEquation, LetterPlace, LetterTerm,

@@ -46,6 +46,7 @@ const WITHOUT_EXAMPLE: &[(&str, &str)] =
 const WITHOUT_EXAMPLE_CODE: &[(&str, &str)] = &[
     ("unmarked", "of what polemark itself fails on"),
     ("by_hand", "from the marks file"),
+    ("factor.slope", "of the tanks on the shelf: src/grading/follow_through_tests.rs"),
     ("inconclusive", "of a lab that rests on rounded coefficients at such a line"),
 ];
 

@@ -1,6 +1,6 @@
 use super::edit::Edit;
 use super::rewrite::rewrite;
-use super::{Mistake, calls, degrees, factors, parameters, terms, whole};
+use super::{Mistake, calls, degrees, factors, parameters, slopes, terms, whole};
 use crate::algebra::Rational;
 use crate::lti::TransferFunction;
 use crate::model::linearization::about;
@@ -34,6 +34,7 @@ impl Derivation {
             all.extend(terms::mistakes(self));
             all.extend(calls::mistakes(self));
             all.extend(factors::mistakes(self));
+            all.extend(slopes::mistakes(self));
         }
         all.extend(parameters::mistakes(self));
         all.extend(degrees::mistakes(self));

@@ -26,6 +26,8 @@ pub(super) enum Replacement {
     /// 0 for a term left out, 1 for a factor.
     Number(u8),
     Name(String),
+    /// Its value at rest stays, its slope is so many times as steep.
+    Slope(Rational),
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -57,6 +59,7 @@ impl Replacement {
             Self::Negated => super::rewrite::negated(node),
             Self::Number(value) => NodeKind::Number(Rational::from(*value)),
             Self::Name(name) => NodeKind::Symbol { name: name.clone(), primes: 0 },
+            Self::Slope(factor) => super::rewrite::with_slope(node, factor),
         }
     }
 }
@@ -128,6 +131,15 @@ impl WholeEdit {
 }
 
 impl Edit {
+    /// One parameter too large and another too small: that makes up for part of the other, and nobody does it twice by chance.
+    pub fn makes_up_for(&self, other: &Self) -> bool {
+        let grows = |edit: &Self| match edit {
+            Self::Parameter(ParameterEdit::Scaled(_, factor)) => Some(*factor > Rational::ONE),
+            _ => None,
+        };
+        matches!((grows(self), grows(other)), (Some(a), Some(b)) if a != b)
+    }
+
     /// Whether both can be done at once, and are then more than one of them.
     pub fn combines_with(&self, other: &Self) -> bool {
         use Edit::{Input, Nodes, Output, Parameter, Point, Rest, Whole};

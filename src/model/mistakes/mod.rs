@@ -9,6 +9,7 @@ mod factors;
 mod parameters;
 mod real;
 mod rewrite;
+mod slopes;
 mod terms;
 mod whole;
 
@@ -54,6 +55,7 @@ pub enum MistakeKind {
     PointSign,
     TermDropped,
     PowerDropped,
+    Slope,
     FactorDropped,
     ParameterMistaken,
     ParametersSwapped,
@@ -69,13 +71,14 @@ pub enum MistakeKind {
 }
 
 impl MistakeKind {
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::OtherPoint,
         Self::WholeSign,
         Self::TermSign,
         Self::PointSign,
         Self::TermDropped,
         Self::PowerDropped,
+        Self::Slope,
         Self::FactorDropped,
         Self::ParameterMistaken,
         Self::ParametersSwapped,
@@ -99,6 +102,7 @@ impl MistakeKind {
             Self::PointSign => "point.sign",
             Self::TermDropped => "term.dropped",
             Self::PowerDropped => "factor.power",
+            Self::Slope => "factor.slope",
             Self::FactorDropped => "factor.dropped",
             Self::ParameterMistaken => "parameter.mistaken",
             Self::ParametersSwapped => "parameter.swapped",
@@ -123,6 +127,7 @@ impl MistakeKind {
             Self::PointSign => 28,
             Self::TermDropped => 24,
             Self::PowerDropped => 18,
+            Self::Slope => 16,
             Self::FactorDropped => 14,
             Self::ParameterMistaken => 12,
             Self::ParametersSwapped => 10,
@@ -146,7 +151,10 @@ impl Mistake {
                 (PointSign, OtherPoint) | (Degrees, OtherOutput | OtherInput | OtherPoint)
             ) || (a.kind == PointSign && b.kind == Degrees && matches!(b.edit, Edit::Rest(..)))
         };
-        self.edit.combines_with(&other.edit) && !either(self, other) && !either(other, self)
+        self.edit.combines_with(&other.edit)
+            && !self.edit.makes_up_for(&other.edit)
+            && !either(self, other)
+            && !either(other, self)
     }
 }
 
@@ -289,6 +297,26 @@ mod tests {
                 ("units.degrees", "at: x = 180", "1", "2s^2 + 3s - 4.1892"),
             ],
         );
+    }
+
+    #[test]
+    fn slopes_without_their_exponent() {
+        check(
+            "F*x^2 = a*x' + k*x^2 + b*sqrt(l*x)",
+            "5",
+            &[
+                // instead of 25/(2s + 70 + 3/2)
+                ("factor.slope", "equation 1: slope of x^2 no. 2 without 2", "25", "2s + 36.5"),
+                ("factor.slope", "equation 1: slope of sqrt(l*x) without 1/2", "25", "2s + 73"),
+            ],
+        );
+        let none = |equation: &str| {
+            let listed = derivation("m", equation, "0").mistakes();
+            assert!(!listed.iter().any(|m| m.kind == MistakeKind::Slope), "{equation}");
+        };
+        // Of a rate, of a parameter, and where it is level at rest.
+        none("F = a*x'^2 + l^2*x");
+        none("F = a*x' + b*x^2");
     }
 
     #[test]

@@ -1,4 +1,5 @@
-use crate::algebra::{Expression, NodeKind};
+use crate::algebra::{Expression, NodeKind, Rational};
+use crate::model::at_rest;
 
 /// The same tree, but the node at bytes `place` of the text is made another one.
 ///
@@ -31,4 +32,13 @@ pub(super) fn rewrite(
 /// The node itself, its sign turned.
 pub(super) fn negated(node: &Expression) -> NodeKind {
     NodeKind::Negate(Box::new(node.clone()))
+}
+
+/// The node as it is at rest, and what it changes by from there `factor` times: the same value, another slope.
+pub(super) fn with_slope(node: &Expression, factor: &Rational) -> NodeKind {
+    let like = |kind| Box::new(Expression { kind, start: node.start, end: node.end });
+    let times = |factor: Rational, of: Expression| {
+        like(NodeKind::Multiply(like(NodeKind::Number(factor)), Box::new(of)))
+    };
+    NodeKind::Add(times(Rational::ONE - factor, at_rest(node)), times(factor.clone(), node.clone()))
 }

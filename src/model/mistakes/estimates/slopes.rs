@@ -1,5 +1,6 @@
 use super::Estimates;
 use crate::algebra::{Expression, NodeKind};
+use crate::model::AT_REST;
 use crate::model::mistakes::Place;
 use crate::model::mistakes::edit::{Edit, Replacement};
 use crate::model::mistakes::rewrite::{negated, rewrite};
@@ -35,7 +36,10 @@ impl Estimates {
     pub(super) fn slopes(&self, node: &Expression, negative: bool, symbols: &[String]) -> Slopes {
         let model = &self.derivation.model;
         let meaning = |name: &str, primes: u8| match primes {
-            0 => symbols.iter().position(|known| known == name).map(Meaning::Slot),
+            0 => {
+                let name = name.strip_suffix(AT_REST).unwrap_or(name);
+                symbols.iter().position(|known| known == name).map(Meaning::Slot)
+            }
             // At rest nothing moves.
             _ => Some(Meaning::Constant(0.0)),
         };
