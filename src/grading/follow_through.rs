@@ -461,7 +461,12 @@ fn own_functions<'a>(
             let diagnosed = judged.clone().find_map(|(_, mark)| mark.diagnosis.as_ref());
             let explanations = diagnosed.map_or(&[][..], |diagnosis| &diagnosis.explanations);
             let is_other = |one: &Explanation| one.code == "point.other";
-            let may_be_a_slip = explanations.iter().any(is_other) && !explanations.iter().all(is_other);
+            // A wrong sign cannot be told from a copy: `docs/decisions/0009`.
+            let is_slip = |one: &Explanation| {
+                let signs = ["point.", "term.sign", "function.sign"];
+                !one.code.split('+').any(|code| signs.iter().any(|sign| code.starts_with(sign)))
+            };
+            let may_be_a_slip = explanations.iter().any(is_other) && explanations.iter().any(is_slip);
             let field = criterion.field.as_str();
             found.push(OwnFunction {
                 of,
