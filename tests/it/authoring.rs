@@ -159,6 +159,19 @@ fn the_guide_works() {
     }
 }
 
+/// Where a point states nothing, the key says what that means.
+#[test]
+fn a_point_at_rest_by_default_is_said_to_be_so() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("lab.yaml"), include_str!("../../templates/new-lab/lab.yaml"))
+        .expect("written");
+    let (code, said) =
+        run(folder.path(), &["reference", "lab.yaml", "--format", "html", "--out", "key.html"]);
+    assert_eq!(code, Some(0), "{said}");
+    let key = std::fs::read_to_string(folder.path().join("key.html")).expect("written");
+    assert!(key.contains("<p>Everything is 0 here. Put into") && !key.contains("<p>; every"), "{key}");
+}
+
 /// What may be meant so, and rarely is, is pointed out.
 #[test]
 fn likely_slips_are_hints() {
