@@ -27,3 +27,9 @@ mod switches;
 mod teacher_marks;
 mod variants;
 mod verify;
+
+/// Generated classes, as `cargo run --example generate_class` writes them.
+#[path = "../../examples/generate_class/class.rs"]
+mod class;
+#[path = "../../examples/generate_class/forms.rs"]
+mod forms;

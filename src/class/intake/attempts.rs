@@ -23,6 +23,8 @@ pub enum WhySuperseded {
     Same,
     /// It answers another lab.
     OtherLab,
+    /// It answers nothing, and is called something else.
+    Blank,
 }
 
 impl Superseded {
@@ -31,6 +33,9 @@ impl Superseded {
         let (by, file) = (sanitize(by), sanitize(&self.file.name));
         let (code, why) = match self.why {
             WhySuperseded::Older => ("intake.superseded", "was handed in later by the same owner"),
+            WhySuperseded::Blank => {
+                ("intake.superseded", "is by the same owner and has answers, which this file has not")
+            }
             WhySuperseded::Same => ("intake.same_file", "is the same file, by the same owner"),
             WhySuperseded::OtherLab => {
                 ("intake.other_lab", "is by the same owner and answers this lab, which this file does not")
@@ -147,6 +152,9 @@ impl Attempt {
         }
         if self.other_lab != other.other_lab {
             return other.other_lab.then_some(WhySuperseded::OtherLab);
+        }
+        if self.base != other.base && (self.answers == 0) != (other.answers == 0) {
+            return (other.answers == 0).then_some(WhySuperseded::Blank);
         }
         let as_much = self.base == other.base || self.answers >= other.answers;
         (self.is_newer(other) && as_much).then_some(WhySuperseded::Older)

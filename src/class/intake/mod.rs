@@ -224,4 +224,23 @@ mod tests {
         let none = find_answer_files(&[empty.path().to_path_buf()], None);
         assert!(matches!(none, Err(IntakeError::NoAnswers { .. })));
     }
+
+    #[test]
+    fn every_code_is_documented() {
+        let manual = include_str!("../../../docs/intake.md");
+        let sources = [
+            include_str!("attempts.rs"),
+            include_str!("people.rs"),
+            include_str!("place.rs"),
+            include_str!("reading.rs"),
+            include_str!("../record.rs"),
+        ];
+        let words = sources.iter().flat_map(|source| source.split('"'));
+        let codes: Vec<&str> =
+            words.filter(|word| word.starts_with("intake.") && *word != "intake.").collect();
+        assert!(codes.len() > 10, "{codes:?}");
+        for code in codes {
+            assert!(manual.contains(&format!("`{code}`")), "docs/intake.md does not list `{code}`");
+        }
+    }
 }
