@@ -1,5 +1,5 @@
 use super::fingerprint::{Fingerprint, fingerprint};
-use super::intake::{AnswerFile, NotRead, answers_another_lab, settle_people, student_records};
+use super::intake::{AnswerFile, NotRead, answers_another_lab, handed_in, settle_people, student_records};
 use super::kept::{Entry, EntryPart, Kept, report_is_there};
 use super::marked::{Marked, our_failure};
 use super::new_file::NewFile;
@@ -254,7 +254,7 @@ impl Desk<'_> {
             parameters: numbers.values(job.lab),
             variant: numbers.variant().cloned(),
             other_variants: Vec::new(),
-            handed_in: file.handed_in.lms.is_some().then(|| file.handed_in.clone()),
+            handed_in: handed_in(file, job.roster),
             students: student_records(&submission, job.roster),
             submission,
             scorecard,

@@ -32,4 +32,5 @@ pub use outcome::Outcome;
 pub use record::{HOLDS, Record, Status, StudentRecord};
 pub use roster::{Roster, RosterError, RosterStudent};
 pub use run::{ClassError, ClassJob, Progress, grade_class};
+pub use without_marks::ids_given_twice;
 pub use workplace::is_unfinished;

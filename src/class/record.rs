@@ -1,4 +1,4 @@
-use super::intake::{Superseded, student_records};
+use super::intake::{Superseded, handed_in, student_records};
 use super::{HandedIn, Marked, OtherVariant, Roster, RosterStudent};
 use crate::grading::{Cause, Conflict, Diagnosis, FollowThrough, ItemScore, Ledger, Tally, Verdict};
 use crate::lab::{LabDefinition, Points};
@@ -332,7 +332,7 @@ impl Record {
             file: one.file.name.clone(),
             status: Status::Superseded,
             superseded_by: Some(one.by.clone()),
-            handed_in: Some(one.file.handed_in.clone()),
+            handed_in: handed_in(&one.file, roster),
             students: student_records(submission, roster),
             findings: vec![FindingRecord::of(&one.finding(by), None)],
             readable: submission.readable,

@@ -14,6 +14,8 @@ pub struct Roster {
     by_folded: BTreeMap<String, usize>,
     /// Other identifiers, names, and numbers of an LMS: to one student, or to several and so to nobody.
     by_other: BTreeMap<(Key, String), Option<usize>>,
+    /// By the folded name of a group.
+    by_group: BTreeMap<String, Vec<usize>>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -239,6 +241,13 @@ impl Roster {
         keys.sort();
         keys.dedup();
         let at = self.students.len();
+        for group in student.group.iter().flat_map(|groups| groups.split(',')).map(folded_id) {
+            let members = self.by_group.entry(group).or_default();
+            if members.last() != Some(&at) {
+                members.push(at);
+            }
+        }
+        self.by_group.remove("");
         for key in keys.into_iter().filter(|(_, text)| !text.is_empty()) {
             self.by_other.entry(key).and_modify(|other| *other = None).or_insert(Some(at));
         }
@@ -271,13 +280,10 @@ impl Roster {
         self.other(Key::Moodle, id.to_owned())
     }
 
-    /// Who is in a group of this name; `_` counts as a space, and Canvas leaves out what is no letter or digit.
+    /// Who is in a group of this name, of which only letters and digits count: Canvas leaves out the rest.
     pub fn group(&self, name: &str) -> Vec<&RosterStudent> {
-        let wanted = folded_id(name);
-        let is_in = |student: &&RosterStudent| {
-            student.group.iter().flat_map(|groups| groups.split(',')).any(|group| folded_id(group) == wanted)
-        };
-        if wanted.is_empty() { Vec::new() } else { self.students.iter().filter(is_in).collect() }
+        let members = self.by_group.get(&folded_id(name)).into_iter().flatten();
+        members.filter_map(|at| self.students.get(*at)).collect()
     }
 
     fn other(&self, key: Key, text: String) -> Option<&RosterStudent> {
@@ -370,6 +376,42 @@ mod tests {
                 "line 5: `C` has no id and gets no numbers",
             ],
         );
+    }
+
+    #[test]
+    fn lists_of_an_lms_are_lists() {
+        let canvas = parse(
+            "Student,ID,SIS User ID,SIS Login ID,Section,Lab 3 (77)\n,,,,,Manual Posting\n    Points Possible,,,,,45\n\
+             \"Doe, Jane\",11,EE-1,jdoe,A,3\n\"Smith, Bob\",12,,bsmith,A,\n\"Poe, Ann\",13,,,B,\n\"Student, Test\",99,,abc,A,\n",
+        );
+        let canvas = canvas.unwrap();
+        let found: Vec<_> = canvas.students.iter().map(|s| (s.id.as_str(), s.name.as_str())).collect();
+        assert_eq!(found, [("EE-1", "Jane Doe"), ("bsmith", "Bob Smith"), ("13", "Ann Poe")]);
+        assert_eq!(canvas.warnings, [""; 0]);
+        for (who, found) in [
+            (canvas.find("ee1"), Some("EE-1")),
+            (canvas.find("JDOE"), Some("EE-1")),
+            (canvas.find("11"), None),
+            (canvas.find_by_canvas_id("11"), Some("EE-1")),
+            (canvas.find_by_letters("doejane"), Some("EE-1")),
+            (canvas.find_by_name("Doe Jane"), Some("EE-1")),
+            (canvas.find_by_name("Jane"), None),
+        ] {
+            assert_eq!(who.map(|student| student.id.as_str()), found);
+        }
+        let moodle = parse(
+            "Identifier,\"Full name\",\"ID number\",\"Email address\",Status,Group\nParticipant 501,Jane Doe,,jane@x.org,,\"A, B\"\n\
+             Participant 502,Jane Doe,EE-2,j2@x.org,,B\nParticipant 503,,,,,\n",
+        );
+        let moodle = moodle.unwrap();
+        let found: Vec<_> = moodle.students.iter().map(|s| (s.id.as_str(), s.moodle_id.as_deref())).collect();
+        assert_eq!(
+            found,
+            [("jane@x.org", Some("501")), ("EE-2", Some("502")), ("Participant 503", Some("503"))]
+        );
+        assert_eq!(moodle.find_by_name("Jane Doe"), None, "two have this name");
+        assert_eq!(moodle.find_by_moodle_id("502").map(|one| one.id.as_str()), Some("EE-2"));
+        assert_eq!((moodle.group("b").len(), moodle.group("A").len(), moodle.group("").len()), (2, 1, 0));
     }
 
     #[test]

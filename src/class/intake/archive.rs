@@ -45,12 +45,16 @@ pub enum ArchiveError {
     NotZip { what: String },
     #[error("it has {found} entries, more than the {limit} that are read")]
     TooManyEntries { found: u64, limit: u64 },
+    #[error("its directory takes {found} MB, more than the {limit} MB that are read")]
+    LargeDirectory { found: u64, limit: u64 },
     #[error("its answer files would unpack to {size} MB, which is more than {ratio} times the archive")]
     Bomb { size: u64, ratio: u64 },
 }
 
 /// Entries of an archive, folders included.
 const MOST_ENTRIES: u64 = 500_000;
+/// Bytes of the list of entries, names included.
+const MOST_OF_A_DIRECTORY: u64 = 256 << 20;
 /// Letters of an entry's name, its folders included.
 const MOST_OF_A_NAME: usize = 1000;
 /// All answer files together may unpack to so much of the archive's own size. Deflate makes at most 1032 of 1; answers
@@ -63,7 +67,11 @@ impl Archive {
     /// Reads the directory of an archive.
     pub fn open(path: &Path) -> Result<Self, ArchiveError> {
         let mut reader = Positioned::open(path)?;
-        let found = entries_claimed(&mut reader)?;
+        let (found, directory) = claimed(&mut reader)?;
+        if directory > MOST_OF_A_DIRECTORY {
+            let limit = MOST_OF_A_DIRECTORY >> 20;
+            return Err(ArchiveError::LargeDirectory { found: directory >> 20, limit });
+        }
         let too_many = |found| ArchiveError::TooManyEntries { found, limit: MOST_ENTRIES };
         if found > MOST_ENTRIES {
             return Err(too_many(found));
@@ -195,10 +203,10 @@ fn plain_name(name: &str) -> (String, bool) {
     (parts.join("/"), is_plain)
 }
 
-/// How many entries the end of an archive says there are, the largest number where it has several ends.
+/// How many entries the end of an archive says there are, and in how many bytes, the largest numbers where it has several ends.
 ///
 /// Asked before the directory is read, for this takes memory by the entry.
-fn entries_claimed(reader: &mut Positioned) -> io::Result<u64> {
+fn claimed(reader: &mut Positioned) -> io::Result<(u64, u64)> {
     /// An end is 22 bytes and a comment of at most 65,535; before it may stand its 64-bit form and that one's place.
     const TAIL: u64 = 22 + 65_535 + 20 + 56;
     let start = reader.len.saturating_sub(TAIL);
@@ -209,16 +217,19 @@ fn entries_claimed(reader: &mut Positioned) -> io::Result<u64> {
         let slice = tail.get(at..at + bytes)?;
         Some(slice.iter().rev().fold(0_u64, |sum, byte| sum << 8 | u64::from(*byte)))
     };
-    let mut most = 0;
+    let (mut entries, mut bytes) = (0, 0);
     for at in 0..tail.len() {
         let claimed = match tail.get(at..at + 4) {
-            Some(b"PK\x05\x06") => number(at + 10, 2),
-            Some(b"PK\x06\x06") => number(at + 32, 8),
-            _ => None,
+            Some(b"PK\x05\x06") => (number(at + 10, 2), number(at + 12, 4)),
+            Some(b"PK\x06\x06") => (number(at + 32, 8), number(at + 40, 8)),
+            _ => continue,
         };
-        most = most.max(claimed.unwrap_or(0));
+        entries = claimed.0.map_or(entries, |claimed| entries.max(claimed));
+        // All bits set say that the 64-bit form has the number.
+        let directory = claimed.1.filter(|size| *size != u64::from(u32::MAX));
+        bytes = directory.map_or(bytes, |size| bytes.max(size));
     }
-    Ok(most)
+    Ok((entries, bytes))
 }
 
 /// A place in a file that several threads read at once: each copy has its own, and its own few bytes read ahead.

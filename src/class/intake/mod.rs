@@ -14,7 +14,7 @@ pub use archive::{Archive, ArchiveError};
 pub use aside::{Aside, WhyAside};
 pub use attempts::{Superseded, answers_another_lab};
 pub use lms_names::{HandedIn, Lms};
-pub use people::{settle_people, student_records};
+pub use people::{handed_in, settle_people, student_records};
 pub use place::{NotRead, Place, read_capped};
 pub use unique_names::UniqueNames;
 

@@ -91,6 +91,16 @@ pub fn student_records(submission: &Submission, roster: Option<&Roster>) -> Vec<
     submission.students.iter().map(record).collect()
 }
 
+/// Who handed `file` in, for its record, with the group of the roster whose work it is; `None` where no LMS says so.
+pub fn handed_in(file: &AnswerFile, roster: Option<&Roster>) -> Option<HandedIn> {
+    file.handed_in.lms?;
+    let group = match Owner::of(&file.handed_in, roster) {
+        Owner::Group(group, _) => Some(group),
+        _ => None,
+    };
+    Some(HandedIn { group, ..file.handed_in.clone() })
+}
+
 /// Who handed it in, as far as that is known.
 enum Owner<'a> {
     /// No LMS says so, or it hides it.

@@ -1,22 +1,25 @@
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Gives out names that are safe as file names everywhere and differ by more than case.
 #[derive(Debug, Default)]
 pub struct UniqueNames {
     taken: BTreeSet<String>,
+    /// The last number given to each name: a whole class calls its files `lab.yaml`.
+    last: BTreeMap<String, usize>,
 }
 
 impl UniqueNames {
     /// `wanted` reduced to letters, digits, `.`, `_`, `-`, at most 80 characters; numbered when taken.
     pub fn claim(&mut self, wanted: &str) -> String {
         let base = safe_file_name(wanted);
-        let mut name = base.clone();
-        let mut number = 1;
-        while !self.taken.insert(name.to_lowercase()) {
-            number += 1;
-            name = format!("{base}-{number}");
+        let last = self.last.entry(base.to_lowercase()).or_insert(0);
+        loop {
+            *last += 1;
+            let name = if *last == 1 { base.clone() } else { format!("{base}-{last}") };
+            if self.taken.insert(name.to_lowercase()) {
+                return name;
+            }
         }
-        name
     }
 }
 
@@ -71,5 +74,12 @@ mod tests {
         let mut names = UniqueNames::default();
         let given: Vec<String> = ["a", "A", "a", "a-2"].iter().map(|n| names.claim(n)).collect();
         assert_eq!(given, ["a", "A-2", "a-3", "a-2-2"]);
+    }
+
+    #[test]
+    fn a_large_class_may_call_all_its_files_the_same() {
+        let mut names = UniqueNames::default();
+        let last = (0..100_000).map(|_| names.claim("lab")).last();
+        assert_eq!(last.as_deref(), Some("lab-100000"));
     }
 }
