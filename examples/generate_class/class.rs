@@ -220,7 +220,12 @@ impl Writer<'_> {
                     true => format!("{} ± {}j", significant(pole.re, figures), significant(pole.im, figures)),
                     false => significant(pole.re, figures),
                 });
-                Some(format!("[{}]", upper.collect::<Vec<_>>().join(", ")))
+                let mut poles = upper.collect::<Vec<_>>().join(", ");
+                // Nor is everything typed as it was meant.
+                if self.chance.below(30) == 0 {
+                    poles.push_str(", 2..1");
+                }
+                Some(format!("[{poles}]"))
             }
             (FieldKind::Stability, Some(own)) if self.chance.below(5) > 0 => Some(
                 match stability(&own.den) {

@@ -88,24 +88,35 @@ fn marks(out: &Path) -> BTreeMap<(String, String), (String, String)> {
 
 #[test]
 fn a_class_gets_the_same_marks_in_every_form_it_is_handed_in() {
-    const STUDENTS: usize = 40;
-    const LAB: &str = "cruise-control";
-    let lab = lab::load(LAB).expect("an embedded lab");
+    marked_alike("cruise-control", 40);
+}
+
+/// `cargo test --release --test it -- --ignored three_thousand`
+#[test]
+#[ignore = "takes minutes, and hours without --release"]
+fn three_thousand_get_the_same_marks_in_every_form_they_are_handed_in() {
+    marked_alike(lab::DEFAULT, 3_000);
+}
+
+/// Marks a generated class in every form.
+fn marked_alike(lab: &str, students: usize) {
+    let (id, count) = (lab, students);
+    let lab = lab::load(id).expect("an embedded lab");
     let reference = Reference::compute(&lab).expect("a reference");
     let class = Class::new(&lab, &reference, 5);
-    let texts: BTreeSet<String> = (0..STUDENTS)
+    let texts: BTreeSet<String> = (0..count)
         .map(|number| class.student(number).answers.split_once("answers:").expect("answers").1.to_owned())
         .collect();
-    assert_eq!(texts.len(), STUDENTS, "all different");
+    assert_eq!(texts.len(), count, "all different");
     let bench = tempfile::tempdir().expect("a folder");
     let mut first: Option<BTreeMap<_, _>> = None;
     for (name, form) in FORMS {
         let (folder, out) = (bench.path().join(name), bench.path().join(format!("{name}-out")));
-        forms::write(&class, STUDENTS, *form, &folder).expect("written");
+        forms::write(&class, count, *form, &folder).expect("written");
         let given = folder.join(if form.is_archive() { "submissions.zip" } else { "submissions" });
         let roster = folder.join("roster.csv");
         let shown = |path: &Path| path.to_str().expect("a path").to_owned();
-        let said = grade(&[&shown(&given), "--roster", &shown(&roster), "--lab", LAB], &out);
+        let said = grade(&[&shown(&given), "--roster", &shown(&roster), "--lab", id], &out);
         assert!(!said.contains("handed nothing in"), "{name}: {said}");
         let marks = marks(&out);
         assert!(marks.values().any(|(earned, _)| earned != "0"), "{name}");
