@@ -2,14 +2,16 @@
 
 use super::LabDefinition;
 use crate::lti::{Shape, Stability};
-use crate::submission::{Field, FieldKind, NonlinearityKind, nonlinearity_name, shape_name, stability_name};
+use crate::submission::{
+    AnswerSheet, Field, FieldKind, NonlinearityKind, nonlinearity_name, shape_name, stability_name,
+};
 use serde_json::{Map, Value, json};
 
 impl LabDefinition {
     /// Draft 7, made from the sheet: no right answer is in it.
     pub fn answers_schema(&self) -> Value {
         let definitions: Map<String, Value> =
-            self.sheet.fields.iter().map(|field| (field.path.clone(), answer(field))).collect();
+            self.sheet.fields.iter().map(|field| (field.path.clone(), answer(field, &self.sheet))).collect();
         let fields: Vec<&str> = self.sheet.fields.iter().map(|field| field.path.as_str()).collect();
         let answers = json!({ "description": "The answers, by key.", "anyOf": [{ "type": "null" }, keys(&fields, "")] });
         json!({
@@ -84,10 +86,14 @@ fn any_spelling(key: &str) -> String {
     any_capitals(key).replace(['_', '-'], "[-_ ]")
 }
 
-fn answer(field: &Field) -> Value {
+fn answer(field: &Field, sheet: &AnswerSheet) -> Value {
     let mut description = field.prompt.clone();
     if let Some(unit) = field.unit.as_ref().filter(|unit| !unit.symbol().is_empty()) {
         description.push_str(&format!(" (in {})", unit.symbol()));
+    }
+    if let Some(words) = sheet.letters.get(&field.path).and_then(|own| own.words(|name| format!("`{name}`")))
+    {
+        description.push_str(&format!(" ({words})"));
     }
     let mut schema = spellings(field.kind);
     if let Some(entries) = schema.as_object_mut() {

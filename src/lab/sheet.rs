@@ -4,8 +4,10 @@ use super::{
 };
 use crate::algebra::from_f64;
 use crate::lti::InputKind;
-use crate::model::{Model, letters_at_rest};
-use crate::submission::{AnswerSheet, AnsweredIn, Field, FieldKind, FieldLetters, LineNames, Unit};
+use crate::model::{Model, letters_at_rest, letters_used};
+use crate::submission::{
+    AnswerSheet, AnsweredIn, Field, FieldKind, FieldLetters, LetterName, LineNames, Unit,
+};
 use std::collections::BTreeMap;
 
 /// What an answer file may hold. Nothing of the right answers goes in.
@@ -24,7 +26,7 @@ pub(super) fn sheet(
     let letters = asked.filter_map(|(question, field)| {
         let point = point(models, about(question, field).as_deref());
         let own = match field.kind {
-            FieldKind::TransferFunction => letters(point, field.answered_in),
+            FieldKind::TransferFunction => letters(point, field.answered_in, &also),
             FieldKind::Formula => FieldLetters { line: point.map(line), ..FieldLetters::default() },
             _ => return None,
         };
@@ -72,15 +74,28 @@ fn line((model, point): Point<'_>) -> LineNames {
 }
 
 /// Values at rest that may stand in a formula about a point: as `h_0`, or `h` alone, which can mean nothing else there.
-fn letters(point: Option<Point<'_>>, answered_in: AnsweredIn) -> FieldLetters {
+///
+/// `parameters_also`: other spellings of parameters.
+fn letters(
+    point: Option<Point<'_>>,
+    answered_in: AnsweredIn,
+    parameters_also: &BTreeMap<String, String>,
+) -> FieldLetters {
     let mut own = FieldLetters { answered_in, ..FieldLetters::default() };
     let found = point.map(|(model, point)| letters_at_rest(model, &point.at));
     for one in found.unwrap_or_default() {
         let value = one.value.as_rational().cloned();
         let Some(value) = value.or_else(|| from_f64(one.value.to_f64())) else { continue };
         own.symbols.insert(one.letter.clone(), value);
-        own.also.insert(one.name, one.letter);
+        own.also.insert(one.name.clone(), one.letter.clone());
+        own.names.push(LetterName { name: one.letter, also: vec![one.name] });
     }
+    let parameters = point.map(|(model, _)| letters_used(model)).unwrap_or_default();
+    let parameters = parameters.into_iter().map(|name| {
+        let also = parameters_also.iter().filter(|(_, of)| **of == name).map(|(spelled, _)| spelled.clone());
+        LetterName { also: also.collect(), name }
+    });
+    own.names.splice(0..0, parameters);
     own
 }
 

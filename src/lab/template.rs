@@ -1,5 +1,5 @@
 use super::{LabDefinition, Question};
-use crate::submission::FieldKind;
+use crate::submission::{AnswerSheet, AnsweredIn, FieldKind};
 use std::collections::BTreeMap;
 
 /// Columns a comment may take.
@@ -25,9 +25,9 @@ impl LabDefinition {
             .filter(|(_, unit)| !unit.is_empty())
             .collect();
         let mut page = Page::default();
-        page.comment("", &format!("{} ({total} points)", self.title));
-        page.comment("", "Write behind the colons and below the bars; what stays empty is not answered.");
-        page.comment("", "Indent with spaces, as it is. Lines that begin with # are only read by you.");
+        page.comment("#", &format!("{} ({total} points)", self.title));
+        page.comment("#", "Write behind the colons and below the bars; what stays empty is not answered.");
+        page.comment("#", "Indent with spaces, as it is. Lines that begin with # are only read by you.");
         page.blank();
         page.line(&format!("lab: {}", self.id));
         page.line("student:");
@@ -35,22 +35,22 @@ impl LabDefinition {
         page.line(format!("  name: {}", quoted(name)).trim_end());
         if let Some(rule) = self.variants.as_ref().filter(|_| !id.is_empty()) {
             page.blank();
-            page.comment("", "Your values, which are not everyone's:");
+            page.comment("#", "Your values, which are not everyone's:");
             let varied = |name: &str| rule.parameters.iter().any(|one| one.name == name);
             for one in self.parameters.iter().filter(|one| varied(&one.name)) {
-                page.comment("", &format!("{} = {} {}", one.name, one.text, one.unit));
+                page.comment("#", &format!("{} = {} {}", one.name, one.text, one.unit));
             }
         } else if self.variants.is_some() {
             page.blank();
             page.comment(
-                "",
+                "#",
                 "Write your id above: values differ from student to student, and yours follow from it.",
             );
         }
         page.blank();
         page.line("answers:");
         for question in &self.questions {
-            page.question(question, &units);
+            page.question(question, &units, &self.sheet);
         }
         page.text
     }
@@ -86,13 +86,13 @@ struct Page {
 }
 
 impl Page {
-    fn question(&mut self, question: &Question, units: &BTreeMap<&str, &str>) {
+    fn question(&mut self, question: &Question, units: &BTreeMap<&str, &str>, sheet: &AnswerSheet) {
         let points = question.points;
         let word = if points == super::Points(100) { "point" } else { "points" };
         self.blank();
-        self.comment("  ", &format!("{}: {} ({points} {word})", question.number, question.title));
+        self.comment("  #", &format!("{}: {} ({points} {word})", question.number, question.title));
         for paragraph in question.text.split("\n\n").filter(|p| !p.trim().is_empty()) {
-            self.comment("  ", paragraph);
+            self.comment("  #", paragraph);
         }
         let mut indent = "  ";
         let own = question.fields.iter().all(|field| field.path == question.id);
@@ -101,12 +101,18 @@ impl Page {
             indent = "    ";
         }
         for field in &question.fields {
-            self.comment(indent, &field.prompt);
+            self.comment(&format!("{indent}#"), &field.prompt);
             match units.get(field.path.as_str()) {
                 Some(unit) => self.line(&format!("{indent}#   a number in {unit}, or unbounded")),
+                None if field.answered_in == AnsweredIn::Letters => {
+                    self.line(&format!("{indent}#   such as (2p*s + q)/(r*s^2 + 3q*s + 1)"));
+                }
                 None => {
                     how_to_write(field.kind).iter().for_each(|line| self.line(&format!("{indent}#   {line}")))
                 }
+            }
+            if let Some(words) = sheet.letters.get(&field.path).and_then(|own| own.words(str::to_owned)) {
+                self.comment(&format!("{indent}#  "), &words);
             }
             let name = match field.path.strip_prefix(&question.id).and_then(|rest| rest.strip_prefix('.')) {
                 Some(name) if !own => name,
@@ -117,14 +123,14 @@ impl Page {
         }
     }
 
-    /// Words in comment lines of [`WIDTH`] columns.
-    fn comment(&mut self, indent: &str, text: &str) {
-        let mut line = format!("{indent}#");
+    /// Words in comment lines of [`WIDTH`] columns, which begin with `start`.
+    fn comment(&mut self, start: &str, text: &str) {
+        let mut line = start.to_owned();
         let bare = line.chars().count();
         for word in text.split_whitespace() {
             if line.chars().count() > bare && line.chars().count() + 1 + word.chars().count() > WIDTH {
                 self.line(&line);
-                line.truncate(indent.len() + 1);
+                line.truncate(start.len());
             }
             line.push(' ');
             line.push_str(word);

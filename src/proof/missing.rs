@@ -3,10 +3,10 @@
 use super::blind_tolerance::blind_tolerances;
 use super::mistakes::undeclared;
 use crate::algebra::{Expression, significant, to_f64};
-use crate::lab::{Check, Concept, ExpectedValue, LabDefinition, Question, SystemRef};
+use crate::lab::{Check, Concept, ExpectedValue, LabDefinition, LineForm, Question, SystemRef};
 use crate::lti::InputKind;
-use crate::reference::{Reference, values_at};
-use crate::submission::{Field, FieldKind, Unit, nonlinearity_name};
+use crate::reference::{OperatingPointReference, Reference, values_at};
+use crate::submission::{AnsweredIn, Field, FieldKind, Unit, nonlinearity_name};
 use std::collections::BTreeSet;
 
 /// Fewer phrases than this are rarely all that students say of a thing.
@@ -117,7 +117,8 @@ pub fn to_paste(lab: &LabDefinition, reference: &Reference) -> Option<String> {
             ["transfer_function.num", "transfer_function.den", "poles"].map(|what| format!("{of}.{what}"))
         })
         .filter_map(|path| {
-            Some(format!("  {path}: {{values: [{}]}}\n", values(&values_at(reference, &path)?)))
+            let known = values_at(reference, &path).filter(|known| !known.is_empty())?;
+            Some(format!("  {path}: {{values: [{}]}}\n", values(&known)))
         })
         .collect();
     if !stated.is_empty() {
@@ -239,7 +240,14 @@ fn model_answer(question: &Question, fields: &[&Field], reference: &Reference) -
     let mut text = String::new();
     for field in fields {
         let judging = question.criteria.iter().find(|criterion| criterion.field == field.path);
-        let answer = judging.and_then(|criterion| answer(&criterion.check, reference));
+        let in_letters = question
+            .fields
+            .iter()
+            .any(|one| one.path == field.path && one.answered_in == AnsweredIn::Letters);
+        let answer = judging.and_then(|criterion| {
+            let letters = if in_letters { letters(&criterion.check, reference) } else { None };
+            letters.or_else(|| answer(&criterion.check, reference))
+        });
         let answer = answer.unwrap_or_else(|| "# not computed: write it in your own words".to_owned());
         let name = field.path.strip_prefix(&question.id).and_then(|rest| rest.strip_prefix('.'));
         match name {
@@ -248,6 +256,29 @@ fn model_answer(question: &Question, fields: &[&Field], reference: &Reference) -
         }
     }
     if text.is_empty() { text } else { format!("  {}:\n    model_answer:\n{text}", question.id) }
+}
+
+/// A transfer function in the lab's letters; `None` where there are none in it.
+fn letters(check: &Check, reference: &Reference) -> Option<String> {
+    let (Check::Structure { of } | Check::Numerator { of, .. } | Check::Denominator { of, .. }) = check
+    else {
+        return None;
+    };
+    let derivation = reference.operating_point(of)?.letters.as_ref().ok()?;
+    derivation.has_letters().then(|| derivation.transfer_function().to_string())
+}
+
+/// The line that touches a function at an operating point.
+fn tangent(point: &OperatingPointReference, form: LineForm) -> Option<String> {
+    let tangent = point.tangent.as_ref()?;
+    let (x, y) = (&point.input, &point.output);
+    let slope = significant(tangent.slope, FIGURES);
+    let offset = tangent.at.1 - tangent.slope * tangent.at.0;
+    let sign = if offset < 0.0 { '-' } else { '+' };
+    Some(match form {
+        LineForm::Line => format!("{y} = {slope}*{x} {sign} {}", significant(offset.abs(), FIGURES)),
+        LineForm::Deviations => format!("d{y} = {slope}*d{x}"),
+    })
 }
 
 /// The right answer to what a check judges, as a student would write it.
@@ -287,6 +318,7 @@ fn answer(check: &Check, reference: &Reference) -> Option<String> {
             }
         }
         Check::Nonlinearity { expected } => Some(nonlinearity_name(*expected).to_owned()),
+        Check::Tangent { of, form, .. } => tangent(reference.operating_point(of)?, *form),
         _ => None,
     }
 }

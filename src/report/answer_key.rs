@@ -21,6 +21,7 @@ use crate::reference::{
     LinearReference, ModelReference, OperatingPointReference, ResponseReference, SimulationReference,
 };
 use crate::source::sanitize;
+use crate::submission::AnsweredIn;
 use serde::Serialize;
 
 #[derive(Serialize)]
@@ -512,10 +513,13 @@ fn key_question(question: &Question, kit: &super::kit::QuestionKit) -> KeyQuesti
             .iter()
             .filter(|f| !f.reference_html.is_empty())
             .map(|f| AnswerView {
-                prompt: f.prompt.clone(),
+                prompt: match f.answered_in {
+                    AnsweredIn::Letters => format!("{} (in letters)", f.prompt),
+                    _ => f.prompt.clone(),
+                },
                 yours_html: String::new(),
                 reference_heading: super::answers::reference_heading(f.kind),
-                reference_html: f.reference_html.clone(),
+                reference_html: format!("{}{}", f.letters_html, f.reference_html),
                 conflicts: Vec::new(),
                 conflicts_title: "",
             })

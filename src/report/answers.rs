@@ -70,6 +70,32 @@ pub fn reference(reference: &Reference, criteria: &[Criterion], path: &str) -> S
     parts.concat()
 }
 
+/// The right transfer function in letters, to stand before the one in numbers; empty where it has none.
+pub fn letters(reference: &Reference, criteria: &[Criterion], path: &str) -> String {
+    let judging = criteria.iter().filter(|criterion| criterion.field == path);
+    let of = judging.filter_map(|criterion| match &criterion.check {
+        Check::Structure { of } | Check::Numerator { of, .. } | Check::Denominator { of, .. } => Some(of),
+        _ => None,
+    });
+    let derivation = of.into_iter().find_map(|of| find(reference, of)?.letters.as_ref().ok());
+    match derivation.filter(|derivation| derivation.has_letters()) {
+        Some(derivation) => {
+            format!("{}<p class=\"muted\">in numbers</p>", math::formula(&derivation.transfer_function()))
+        }
+        None => String::new(),
+    }
+}
+
+/// Whether what was typed is a formula with letters in it, other than the variable.
+pub fn has_letters(answer: Option<&Answer>) -> bool {
+    match answer.map(|answer| &answer.value) {
+        Some(Ok(AnswerValue::TransferFunction { formula: Some(formula), .. })) => {
+            formula.symbols().iter().any(|symbol| !symbol.name.eq_ignore_ascii_case("s"))
+        }
+        _ => false,
+    }
+}
+
 fn expected(reference: &Reference, check: &Check) -> String {
     let point = |of: &SystemRef| find(reference, of);
     let main = |of: &SystemRef| point(of).map(OperatingPointReference::main);

@@ -1,6 +1,7 @@
 //! The sheet a student works from: what is given, with their own values, and what is asked. Nothing of the answers is on it.
 
 use super::anchor::question_anchor;
+use super::escape::escape;
 use super::given::{self, GivenView};
 use super::kit::{ReportError, environment, render};
 use super::math;
@@ -92,7 +93,14 @@ struct QuestionView {
     title: String,
     points: String,
     text_html: String,
-    asked: Vec<String>,
+    asked: Vec<AskedView>,
+}
+
+#[derive(Serialize)]
+struct AskedView {
+    prompt: String,
+    /// Which letters may stand in it; empty where none may.
+    letters_html: String,
 }
 
 fn page(lab: &LabDefinition, student: Option<HandoutStudent<'_>>) -> HandoutPage {
@@ -118,7 +126,7 @@ fn page(lab: &LabDefinition, student: Option<HandoutStudent<'_>>) -> HandoutPage
                 chain: super::answer_key::chain_words(one),
             })
             .collect(),
-        questions: lab.questions.iter().map(question).collect(),
+        questions: lab.questions.iter().map(|one| question(lab, one)).collect(),
         edition: (!is_embedded(lab)).then(|| StudentEdition::of(lab).file_name()),
         name,
         id,
@@ -184,7 +192,7 @@ fn point(point: &OperatingPointDefinition) -> PointView {
     }
 }
 
-fn question(question: &Question) -> QuestionView {
+fn question(lab: &LabDefinition, question: &Question) -> QuestionView {
     let optional = |required: bool| if required { "" } else { " (if you like)" };
     QuestionView {
         anchor: question_anchor(&question.id),
@@ -195,7 +203,19 @@ fn question(question: &Question) -> QuestionView {
         asked: question
             .fields
             .iter()
-            .map(|field| format!("{}{}", field.prompt.trim().trim_end_matches('.'), optional(field.required)))
+            .map(|field| AskedView {
+                prompt: format!("{}{}", field.prompt.trim().trim_end_matches('.'), optional(field.required)),
+                letters_html: letters(lab, &field.path),
+            })
             .collect(),
     }
+}
+
+fn letters(lab: &LabDefinition, path: &str) -> String {
+    let code = |name: &str| {
+        let mut html = "<code>".to_owned();
+        escape(&mut html, name);
+        html + "</code>"
+    };
+    lab.sheet.letters.get(path).and_then(|own| own.words(code)).unwrap_or_default()
 }

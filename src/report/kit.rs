@@ -6,7 +6,7 @@ use super::tangent::good_words;
 use super::{answers, prose};
 use crate::lab::{LabDefinition, Question, SystemRef};
 use crate::reference::Reference;
-use crate::submission::FieldKind;
+use crate::submission::{AnsweredIn, FieldKind};
 use minijinja::syntax::SyntaxConfig;
 use minijinja::value::Serde;
 use minijinja::{Environment, UndefinedBehavior};
@@ -37,6 +37,9 @@ pub(super) struct FieldKit {
     pub prompt: String,
     pub kind: FieldKind,
     pub reference_html: String,
+    /// The same in letters, to stand before it; empty where there are none.
+    pub letters_html: String,
+    pub answered_in: AnsweredIn,
 }
 
 #[derive(Debug, thiserror::Error)]
@@ -113,6 +116,11 @@ impl QuestionKit {
                 prompt: f.prompt.trim().trim_end_matches('.').to_owned(),
                 kind: f.kind,
                 reference_html: answers::reference(reference, &question.criteria, &f.path),
+                letters_html: match f.answered_in {
+                    AnsweredIn::Numbers => String::new(),
+                    _ => answers::letters(reference, &question.criteria, &f.path),
+                },
+                answered_in: f.answered_in,
             })
             .collect();
         let pictures = pictures::of_question(lab, reference, question)

@@ -13,7 +13,7 @@ use super::{conflicts, items, opening};
 use crate::grading::{Scorecard, Tally};
 use crate::lab::{LabDefinition, ObservedRow, Points, Question};
 use crate::source::{Finding, SourceText, sanitize};
-use crate::submission::{AnswerValue, Submission};
+use crate::submission::{AnswerValue, AnsweredIn, Submission};
 use serde::Serialize;
 
 #[derive(Serialize)]
@@ -172,7 +172,13 @@ fn question(
             prompt: field.prompt.clone(),
             yours_html: answers::yours(answer, &field.prompt, &marks),
             reference_heading: answers::reference_heading(field.kind),
-            reference_html: field.reference_html.clone(),
+            reference_html: match field.answered_in {
+                AnsweredIn::Letters => format!("{}{}", field.letters_html, field.reference_html),
+                AnsweredIn::Either if answers::has_letters(answer) => {
+                    format!("{}{}", field.letters_html, field.reference_html)
+                }
+                _ => field.reference_html.clone(),
+            },
             conflicts_title: conflicts::title(&conflicts),
             conflicts,
         };

@@ -47,7 +47,7 @@ pub use attachments::{AttachmentError, Attachments, Folder, MAX_ATTACHMENT_BYTES
 pub use own_claims::{ContradictedClaim, claims_about, contradicted_claims};
 pub use read::{MAX_PROSE_BYTES, read};
 pub use self_check::self_check;
-pub use sheet::{AnswerSheet, AnsweredIn, Field, FieldKind, FieldLetters, LineNames};
+pub use sheet::{AnswerSheet, AnsweredIn, Field, FieldKind, FieldLetters, LetterName, LineNames};
 pub use unit::{Unit, UnitRatio};
 pub use words::{
     NonlinearityKind, nonlinearity_name, nonlinearity_word, shape_name, shape_word, stability_name,

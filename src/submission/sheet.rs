@@ -80,10 +80,39 @@ pub struct FieldLetters {
     pub symbols: BTreeMap<String, Rational>,
     /// Other spellings of them: `h` → `h_0`.
     pub also: BTreeMap<String, String>,
+    /// The letters that are of use in this field, for whoever has to write it; empty where numbers are asked for.
+    pub names: Vec<LetterName>,
     /// Of a tangent: what it is a tangent of.
     pub line: Option<LineNames>,
     /// Those of them that students are to find themselves, where nobody may tell: their values here are stand-ins.
     pub untold: BTreeSet<String>,
+}
+
+/// A letter, and other ways to write it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LetterName {
+    pub name: String,
+    pub also: Vec<String>,
+}
+
+impl FieldLetters {
+    /// `in the letters A, k (or c_v)`, each name put in marks by `mark`; `None` where no letters may be used.
+    pub fn words(&self, mark: impl Fn(&str) -> String) -> Option<String> {
+        let each = |one: &LetterName| match one.also.as_slice() {
+            [] => mark(&one.name),
+            also => {
+                let also: Vec<String> = also.iter().map(|name| mark(name)).collect();
+                format!("{} (or {})", mark(&one.name), also.join(", "))
+            }
+        };
+        let names: Vec<String> = self.names.iter().map(each).collect();
+        let before = match self.answered_in {
+            AnsweredIn::Letters => "in the letters",
+            AnsweredIn::Either => "in numbers, or in the letters",
+            AnsweredIn::Numbers => return None,
+        };
+        (!names.is_empty()).then(|| format!("{before} {}", names.join(", ")))
+    }
 }
 
 /// The names in the equation of a tangent.

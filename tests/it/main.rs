@@ -17,6 +17,7 @@ mod hostile_archives;
 mod intake;
 mod laws;
 mod ledger;
+mod letters;
 mod marking_examples;
 mod numbers;
 mod plots;

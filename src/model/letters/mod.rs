@@ -10,6 +10,7 @@ mod rest;
 mod ring;
 mod signal;
 mod symbolic;
+mod used;
 
 use super::{Equilibrium, Model};
 use crate::algebra::{Expression, MultivariatePolynomial, OverBudget, Polynomial, Rational, to_f64};
@@ -20,6 +21,7 @@ pub use rest::{LetterAtRest, letters_at_rest};
 use ring::Ring;
 pub use signal::Signal;
 use std::collections::BTreeMap;
+pub use used::letters_used;
 
 /// Every step from the equations to the transfer function, in letters.
 ///

@@ -1,0 +1,84 @@
+//! What is asked for in letters says so wherever it is asked, and is shown in letters wherever it is answered.
+
+use crate::bench::Bench;
+use polemark::grading::grade;
+use polemark::lab::LabDefinition;
+use polemark::proof::to_paste;
+use polemark::reference::Reference;
+use polemark::report::{HandoutKit, ReportKit};
+use polemark::source::SourceText;
+
+const WANTED: &str = "in the letters A, k (or c_v), h_0 (or h), q_0 (or q)";
+
+#[track_caller]
+fn has(text: &str, wanted: &str, times: usize) {
+    assert_eq!(text.matches(wanted).count(), times, "{wanted}\n{text}");
+}
+
+#[test]
+fn letters_are_told_where_they_are_asked_for() {
+    let lab = &Bench::letters().lab;
+    let template = lab.answer_template();
+    has(&template, &format!("#   {WANTED}\n"), 1);
+    has(&template, "#   in the letters M, m, b, l, g\n", 1);
+    has(&template, "(2p*s + q)", 2);
+    // In numbers, for the third question.
+    has(&template, "in the letters", 2);
+    has(&template, "{num: [2, 1]", 1);
+    let schema = lab.answers_schema().to_string();
+    has(&schema, "(in the letters `A`, `k` (or `c_v`), `h_0` (or `h`), `q_0` (or `q`))", 1);
+    has(&schema, "in the letters", 2);
+    let handout = HandoutKit::new().unwrap().sheet(lab, None);
+    has(&handout, "in the letters <code>A</code>, <code>k</code> (or <code>c_v</code>)", 1);
+    has(&handout, "in the letters", 2);
+    // Either will do.
+    let either = Bench::embedded().lab.answer_template();
+    assert!(either.contains("#   in numbers, or in the letters M,"), "{either}");
+}
+
+#[test]
+fn what_is_right_is_shown_in_letters() {
+    let bench = Bench::letters();
+    let kit = ReportKit::new(&bench.lab, &bench.reference).unwrap();
+    let key = kit.reference_page();
+    has(&key, "(in letters)</th>", 2);
+    has(&key, "in numbers</p>", 2);
+    for (answers, times) in [("  level: 1/(A*s)\n", 2), ("  draining: 1/(A*s)\n", 2)] {
+        let submission = bench.read(answers);
+        let card = grade(&bench.lab, &bench.reference, &bench.catalogue, &submission, None);
+        has(&kit.student_page(&submission, &card), "in numbers</p>", times);
+    }
+    // Where either will do, letters are shown to who uses them.
+    let bench = Bench::embedded();
+    let kit = ReportKit::new(&bench.lab, &bench.reference).unwrap();
+    for (typed, times) in [("-0.06s/(0.0132s^3 + 1)", 0), ("-m*l*s/(M*s^3 + 1)", 1)] {
+        let submission = bench.read(&format!("  hanging.transfer_function: {typed}\n"));
+        let card = grade(&bench.lab, &bench.reference, &bench.catalogue, &submission, None);
+        has(&kit.student_page(&submission, &card), "in numbers</p>", times);
+    }
+}
+
+/// The lines that `verify` proposes for a lab without model answers and expectations.
+fn proposed(text: &str) -> String {
+    let kept: Vec<&str> = text
+        .lines()
+        .take_while(|line| !line.starts_with("expect:"))
+        .filter(|line| !line.trim_start().starts_with("model_answer:"))
+        .collect();
+    let text = kept.join("\n");
+    let lab = LabDefinition::parse(SourceText::new("lab.yaml", text)).unwrap();
+    let reference = Reference::compute(&lab).unwrap();
+    to_paste(&lab, &reference).unwrap_or_default()
+}
+
+#[test]
+fn verify_proposes_what_would_be_right() {
+    let lines = proposed(include_str!("letters.yaml"));
+    has(&lines, "model_answer: 2*sqrt(h_0)/(2*A*sqrt(h_0)*s + k)\n", 1);
+    has(&lines, "model_answer: {num:", 1);
+    let lines = proposed(include_str!("tangent.yaml"));
+    has(&lines, "not computed", 0);
+    has(&lines, "poles", 0);
+    has(&lines, "model_answer: y = 6*x - 9\n", 1);
+    has(&lines, "model_answer: dy = 6*dx\n", 1);
+}
