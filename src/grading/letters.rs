@@ -39,6 +39,7 @@ pub(super) fn judge(
     let Some(formula) = formula.filter(|_| has_letters) else {
         return numbers_only(criteria, derivation, numeric);
     };
+    let formula = &derivation.with_rest(formula);
     let same = derivation.same_as(formula, variable(formula));
     let readings = readings(criteria, derivation, formula);
     // A formula can be made to agree at a few places and nowhere else.
@@ -61,7 +62,8 @@ pub(super) fn judge(
             return if decided || !whole { right } else { probably(right, same) };
         }
         let Some(worst) = worst else {
-            return left_to_a_person(numeric);
+            // What is wrong by the lab's numbers is not right for all others.
+            return if numeric.code == "right" { left_to_a_person(numeric) } else { numeric };
         };
         let (code, earned) = worst.scores[index];
         let for_numbers = numeric.earned == criterion.points && whole;

@@ -550,6 +550,11 @@ pub(super) struct FieldFile {
     pub expected: Option<Text>,
     /// For `prose`, in a question without `criteria`: what it should say, by id.
     pub concepts: Option<Spanned<Entries<ConceptFile>>>,
+    /// For a `formula`, in a question without `criteria`: `line` (y = 6x − 9) or `deviations` (δy = 6δx). Default `line`.
+    pub form: Option<Text>,
+    /// For a `formula`, in a question without `criteria`: the part of the points left by the other of the two forms, 0 to 1.
+    /// Default 0.5.
+    pub other_form: Option<Text>,
 }
 
 impl<'de> Deserialize<'de> for FieldForm {

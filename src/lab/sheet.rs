@@ -2,9 +2,9 @@ use super::{
     Check, Criterion, Curve, Described, ModelDefinition, OperatingPointDefinition, Parameter, Question,
     QuestionField,
 };
-use crate::algebra::from_f64;
+use crate::algebra::{Rational, from_f64};
 use crate::lti::InputKind;
-use crate::model::{Model, letters_at_rest, letters_used};
+use crate::model::{Model, known_at_rest, letters_at_rest, letters_used};
 use crate::submission::{
     AnswerSheet, AnsweredIn, Field, FieldKind, FieldLetters, LetterName, LineNames, Unit,
 };
@@ -89,6 +89,17 @@ fn letters(
         own.symbols.insert(one.letter.clone(), value);
         own.also.insert(one.name.clone(), one.letter.clone());
         own.names.push(LetterName { name: one.letter, also: vec![one.name] });
+    }
+    // What is known as it is has its name too, though nobody needs it.
+    let known = point.map(|(model, point)| known_at_rest(model, &point.at));
+    let plain = |name: &str| name.replace('_', "");
+    let taken = |letter: &str| parameters_also.keys().any(|spelled| plain(spelled) == plain(letter));
+    for one in known.unwrap_or_default().into_iter().filter(|one| !taken(&one.letter)) {
+        let Some(value) = from_f64(one.value.to_f64()) else { continue };
+        if value != Rational::ZERO {
+            own.also.insert(one.name, one.letter.clone());
+        }
+        own.symbols.insert(one.letter, value);
     }
     let parameters = point.map(|(model, _)| letters_used(model)).unwrap_or_default();
     let parameters = parameters.into_iter().map(|name| {

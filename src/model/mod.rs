@@ -26,7 +26,7 @@ use equilibrium::{AT_REST, at_rest};
 pub use exact::Exact;
 pub use letters::{
     AtRest, LetterAgreement, LetterAtRest, LetterDerivation, LetterEquation, LetterPlace, LetterTerm,
-    LettersError, Signal, is_light, letters_at_rest, letters_used,
+    LettersError, Signal, is_light, known_at_rest, letters_at_rest, letters_used,
 };
 pub use linear_form::{LinearForm, Root};
 pub use linearization::{Linearization, linearize};

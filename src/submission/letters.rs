@@ -1,5 +1,5 @@
 use super::sheet::{AnswerSheet, FieldLetters};
-use crate::algebra::{Expression, NodeKind, Rational};
+use crate::algebra::{Expression, Function, NodeKind, Rational};
 use std::collections::BTreeMap;
 
 /// The letters that may stand in one field's formula, and how they may be spelled.
@@ -22,7 +22,21 @@ impl Letters {
     }
 
     /// The formula with the lab's own names for its letters.
-    pub fn named(&self, mut formula: Expression) -> Expression {
+    ///
+    /// `e^x` is exp(x) where `e` is no letter.
+    pub fn named(&self, formula: Expression) -> Expression {
+        let is_e =
+            |node: &Expression| matches!(&node.kind, NodeKind::Symbol { name, primes: 0 } if name == "e");
+        let mut formula = match self.known("e") {
+            Some(_) => formula,
+            None => formula.replaced(&|node| match &node.kind {
+                NodeKind::Power(base, power) if is_e(base) => {
+                    let kind = NodeKind::Call(Function::Exp, Box::new(self.named((**power).clone())));
+                    Some(Expression { kind, start: node.start, end: node.end })
+                }
+                _ => None,
+            }),
+        };
         self.rename(&mut formula);
         formula
     }
@@ -111,6 +125,7 @@ mod tests {
             ("B", "b"),
             ("s", "s"),
             ("q", "q"),
+            ("M e^{-b s} + e^x", "M*exp(-b*s) + exp(x)"),
         ] {
             let read = Expression::parse_typed(typed).unwrap_or_else(|e| panic!("{typed}: {e}"));
             assert_eq!(letters.named(read).to_string(), known, "{typed}");

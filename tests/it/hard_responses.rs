@@ -1,6 +1,6 @@
 //! Responses whose terms cancel or whose times lie far apart, against many digits found by another route.
 
-use crate::hard_table::multiplied_out;
+use crate::hard_table::{Line, entries, multiplied_out};
 use polemark::algebra::Polynomial;
 use polemark::lti::{Features, InputKind, Response, ResponseError, TransferFunction};
 use rayon::prelude::*;
@@ -19,29 +19,23 @@ struct Entry {
 }
 
 fn table() -> Vec<Entry> {
-    let mut entries: Vec<Entry> = Vec::new();
-    let lines = include_str!("hard_responses.txt").lines();
-    for line in lines.filter(|line| !line.is_empty() && !line.starts_with('#')) {
-        if let Some(name) = line.strip_prefix('[').and_then(|rest| rest.strip_suffix(']')) {
-            entries.push(Entry { name: name.to_string(), ..Entry::default() });
-            continue;
-        }
-        let entry = entries.last_mut().expect("a name comes first");
-        match line.split_once(": ") {
-            Some(("num", text)) => entry.num = multiplied_out(text),
-            Some(("den", text)) => entry.den = multiplied_out(text),
-            Some(("kind", text)) => entry.step = text == "step",
-            Some(("shape", text)) => entry.shape = text.to_string(),
-            Some(("final", text)) => entry.final_value = text.parse().ok(),
-            Some(("accuracy", text)) => entry.accuracy = text.parse().unwrap(),
-            Some((key, _)) => panic!("{}: {key}", entry.name),
-            None => {
-                let (t, y) = line.split_once(' ').unwrap();
+    entries(
+        include_str!("hard_responses.txt"),
+        |name| Entry { name, ..Entry::default() },
+        |entry, line| match line {
+            Line::Key("num", text) => entry.num = multiplied_out(text),
+            Line::Key("den", text) => entry.den = multiplied_out(text),
+            Line::Key("kind", text) => entry.step = text == "step",
+            Line::Key("shape", text) => entry.shape = text.to_string(),
+            Line::Key("final", text) => entry.final_value = text.parse().ok(),
+            Line::Key("accuracy", text) => entry.accuracy = text.parse().unwrap(),
+            Line::Key(key, _) => panic!("{}: {key}", entry.name),
+            Line::Row(row) => {
+                let [t, y] = row[..] else { panic!("{}: {row:?}", entry.name) };
                 entry.values.push((t.parse().unwrap(), y.parse().unwrap()));
             }
-        }
-    }
-    entries
+        },
+    )
 }
 
 fn faults(entry: &Entry) -> Vec<String> {

@@ -1,4 +1,4 @@
-//! Reads `hard_polynomials.txt`, for the tests and the benchmark.
+//! Reads `hard_polynomials.txt` and its like, for the tests and the benchmark.
 
 use polemark::algebra::{Polynomial, Rational, parse_decimal};
 
@@ -17,28 +17,44 @@ pub struct Entry {
 }
 
 pub fn table() -> Vec<Entry> {
-    let mut entries: Vec<Entry> = Vec::new();
-    let lines = include_str!("hard_polynomials.txt").lines();
-    for line in lines.filter(|line| !line.is_empty() && !line.starts_with('#')) {
+    entries(
+        include_str!("hard_polynomials.txt"),
+        |name| Entry { name, ..Entry::default() },
+        |entry, line| match line {
+            Line::Key("source", _) => {}
+            Line::Key("p", text) => entry.p = multiplied_out(text),
+            Line::Key("num", text) => entry.num = Some(multiplied_out(text)),
+            Line::Key("cancels", text) => entry.cancels = text.parse().unwrap(),
+            Line::Key("stability", text) => entry.stability = text.to_string(),
+            Line::Key("right", text) => entry.right = text.parse().unwrap(),
+            Line::Key("refused", text) => entry.refused = Some(text.to_string()),
+            Line::Key(key, _) => panic!("{}: {key}", entry.name),
+            Line::Row(row) => {
+                let [multiplicity, re, im] = row[..] else { panic!("{}: {row:?}", entry.name) };
+                entry.roots.push((multiplicity.parse().unwrap(), decimal(re), decimal(im)));
+            }
+        },
+    )
+}
+
+/// A line of an entry: `key: text`, or words.
+pub enum Line<'a> {
+    Key(&'a str, &'a str),
+    Row(Vec<&'a str>),
+}
+
+/// The entries of a table, each under its `[name]`, blank lines and those that begin with `#` left out.
+pub fn entries<E>(text: &str, new: impl Fn(String) -> E, read: impl Fn(&mut E, Line<'_>)) -> Vec<E> {
+    let mut entries: Vec<E> = Vec::new();
+    for line in text.lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
         if let Some(name) = line.strip_prefix('[').and_then(|rest| rest.strip_suffix(']')) {
-            entries.push(Entry { name: name.to_string(), ..Entry::default() });
+            entries.push(new(name.to_string()));
             continue;
         }
         let entry = entries.last_mut().expect("a name comes first");
         match line.split_once(": ") {
-            Some(("source", _)) => {}
-            Some(("p", text)) => entry.p = multiplied_out(text),
-            Some(("num", text)) => entry.num = Some(multiplied_out(text)),
-            Some(("cancels", text)) => entry.cancels = text.parse().unwrap(),
-            Some(("stability", text)) => entry.stability = text.to_string(),
-            Some(("right", text)) => entry.right = text.parse().unwrap(),
-            Some(("refused", text)) => entry.refused = Some(text.to_string()),
-            Some((key, _)) => panic!("{}: {key}", entry.name),
-            None => {
-                let parts: Vec<&str> = line.split(' ').collect();
-                let [multiplicity, re, im] = parts[..] else { panic!("{}: {line}", entry.name) };
-                entry.roots.push((multiplicity.parse().unwrap(), decimal(re), decimal(im)));
-            }
+            Some((key, text)) => read(entry, Line::Key(key, text)),
+            None => read(entry, Line::Row(line.split(' ').collect())),
         }
     }
     entries

@@ -82,3 +82,41 @@ fn verify_proposes_what_would_be_right() {
     has(&lines, "model_answer: y = 6*x - 9\n", 1);
     has(&lines, "model_answer: dy = 6*dx\n", 1);
 }
+
+#[test]
+fn a_field_says_the_form_of_its_tangent() {
+    let text = include_str!("tangent.yaml").replace(
+        "    answer: {kind: formula}\n    criteria:\n      form: {title: Deviations, points: 2, check: tangent, form: deviations, other_form: 0.5}\n",
+        "    answer: {kind: formula, form: deviations, other_form: 0.25}\n",
+    );
+    let lab = LabDefinition::parse(SourceText::new("lab.yaml", text.clone())).unwrap();
+    let criterion =
+        lab.questions.iter().find(|question| question.id == "deviations").unwrap().criteria[0].clone();
+    let stated = format!("{:?}", criterion.check);
+    assert!(stated.contains("Deviations"), "{stated}");
+    for (from, to, says) in [
+        ("form: deviations, other", "form: slope, other", "slope"),
+        ("answer: dc_gain", "answer: {kind: dc_gain, form: line}", "form"),
+    ] {
+        let text = text.replace(from, to);
+        let errors = LabDefinition::parse(SourceText::new("lab.yaml", text)).unwrap_err();
+        assert!(
+            errors.findings.iter().all(|error| error.message.contains(says)) && errors.findings.len() == 1,
+            "{errors:#?}"
+        );
+    }
+}
+
+#[test]
+fn a_spelling_means_one_thing() {
+    let text = include_str!("letters.yaml").replace("also: [c_v]", "also: [c_v, h0]");
+    let errors = LabDefinition::parse(SourceText::new("lab.yaml", text)).unwrap_err();
+    let said: Vec<&str> = errors.findings.iter().map(|error| error.message.as_str()).collect();
+    assert_eq!(said, ["`h0` would mean both `k` and the value at rest `h_0`"]);
+    // A parameter has its own name, and the level at rest another.
+    let text =
+        include_str!("letters.yaml").replace("m: {value: 0.2", "h0: {value: 3, unit: m}\n  m: {value: 0.2");
+    let lab =
+        LabDefinition::parse(SourceText::new("lab.yaml", text.replace("sqrt(h_0)", "sqrt(h_e)"))).unwrap();
+    has(&lab.answer_template(), "h_e (or h)", 1);
+}

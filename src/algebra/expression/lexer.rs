@@ -32,6 +32,10 @@ pub(super) enum TokenKind {
     Close,
     /// LaTeX's `\frac`, before its two groups in braces.
     Fraction,
+    /// `√`, before what it is the root of.
+    Root,
+    /// `°`, behind a number of degrees.
+    Degrees,
 }
 
 /// Longer formulas are refused unread.
@@ -99,6 +103,8 @@ impl Lexer<'_> {
             '=' => TokenKind::Equals,
             '(' | '[' | '{' => TokenKind::Open,
             ')' | ']' | '}' => TokenKind::Close,
+            '√' => TokenKind::Root,
+            '°' => TokenKind::Degrees,
             '0'..='9' | '.' => return self.number(start),
             '\\' => return self.command(start),
             ',' => return Err(self.comma(start)),
@@ -199,11 +205,15 @@ impl Lexer<'_> {
         let mut name = String::new();
         let mut primes = 0;
         let mut greek_start = false;
+        let mut in_index = false;
         while let Some(c) = self.peek()
             && superscript(c).is_none()
             && primes == 0
+            // What is written small ends a name: J₁J₂ are two.
+            && (is_subscript(c) || !in_index)
         {
             let base = plain(c);
+            in_index = is_subscript(c) && !name.is_empty();
             if base == '_'
                 && let Some(index) = braced(&self.text[self.at + c.len_utf8()..])
             {
@@ -272,6 +282,21 @@ impl Lexer<'_> {
             },
             "left" | "right" | "big" | "Big" | "bigl" | "bigr" | "quad" | "mathrm" => {}
             "frac" | "dfrac" | "tfrac" => self.push(start, TokenKind::Fraction),
+            // Behind `^`, with or without braces.
+            "circ" => {
+                let raised = |token: &Token| matches!(token.kind, TokenKind::Power | TokenKind::Open);
+                let in_braces = matches!(self.tokens.last(), Some(Token { kind: TokenKind::Open, .. }));
+                while self.tokens.last().is_some_and(raised) {
+                    let power = self.tokens.pop().is_some_and(|token| token.kind == TokenKind::Power);
+                    if power {
+                        break;
+                    }
+                }
+                if in_braces && self.peek() == Some('}') {
+                    self.skip('}');
+                }
+                self.push(start, TokenKind::Degrees);
+            }
             "cdot" | "times" => self.push(start, TokenKind::Times),
             name if Function::named(name).is_some() || greek::letter(name).is_some() => {
                 // An index belongs to the letter: `\theta_0`.
@@ -358,6 +383,11 @@ fn dots_in(c: char) -> usize {
     }
     let marks = std::iter::once(c).nfkd().skip(1);
     marks.map(|mark| if mark == '\u{307}' { 1 } else { 2 * usize::from(mark == '\u{308}') }).sum()
+}
+
+/// Digits and letters below the line.
+fn is_subscript(c: char) -> bool {
+    matches!(c, '₀'..='₉' | 'ₐ'..='ₜ' | 'ᵢ' | 'ᵣ' | 'ᵤ' | 'ᵥ' | 'ⱼ')
 }
 
 fn superscript(c: char) -> Option<char> {

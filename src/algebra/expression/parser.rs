@@ -109,7 +109,7 @@ impl Parser {
                 TokenKind::Plus | TokenKind::Minus => (SUM, SUM),
                 TokenKind::Times | TokenKind::Over => (PRODUCT, PRODUCT),
                 TokenKind::Power => (POWER, POWER - 1),
-                TokenKind::Superscript(_) => (POWER + 1, POWER + 1),
+                TokenKind::Superscript(_) | TokenKind::Degrees => (POWER + 1, POWER + 1),
                 TokenKind::Equals | TokenKind::Close => break,
                 _ => (PRODUCT, PRODUCT),
             };
@@ -121,6 +121,11 @@ impl Parser {
                     self.at += 1;
                     let exponent = leaf(NodeKind::Number(value), token.start, token.end);
                     left = self.join(NodeKind::Power, left, exponent)?;
+                    continue;
+                }
+                TokenKind::Degrees => {
+                    self.at += 1;
+                    left = self.in_degrees(left, &token)?;
                     continue;
                 }
                 TokenKind::Plus
@@ -209,22 +214,8 @@ impl Parser {
                 self.wrap(NodeKind::Negate(Box::new(inner.node)), start, end, inner.height)
             }
             TokenKind::Plus => self.expression(SIGN),
-            TokenKind::Function(function) => {
-                let name = function.name();
-                match self.next() {
-                    Some(open) if open.kind == TokenKind::Open => {
-                        let inner = self.group(open.start)?;
-                        let end = inner.node.end;
-                        self.wrap(NodeKind::Call(function, Box::new(inner.node)), start, end, inner.height)
-                    }
-                    Some(other) if matches!(other.kind, TokenKind::Power | TokenKind::Superscript(_)) => {
-                        Err(error(start, other.end, format!("`{name}` has a power before its argument"))
-                            .helped(format!("write `{name}(x)^2`")))
-                    }
-                    _ => Err(error(start, end, format!("`{name}` has no argument in parentheses"))
-                        .helped(format!("write `{name}(x)`"))),
-                }
-            }
+            TokenKind::Root => self.root(start, end),
+            TokenKind::Function(function) => self.call(function, start, end),
             TokenKind::Fraction => {
                 let top = self.braces(end)?;
                 let bottom = self.braces(top.node.end)?;
@@ -245,6 +236,79 @@ impl Parser {
                 Err(error(start, end, message))
             }
         }
+    }
+
+    /// `√` from `start` to `end`, and what it is the root of.
+    fn root(&mut self, start: usize, end: usize) -> Result<Parsed, ExpressionError> {
+        let Some(inner) = self.bare_argument() else {
+            let message = "what `√` is the root of is not clear".to_owned();
+            return Err(error(start, end, message).helped("write `sqrt(…)`"));
+        };
+        let inner = inner?;
+        let end = inner.node.end;
+        self.wrap(NodeKind::Call(Function::Sqrt, Box::new(inner.node)), start, end, inner.height)
+    }
+
+    /// A function whose name is at `start..end`, and its argument.
+    fn call(&mut self, function: Function, start: usize, end: usize) -> Result<Parsed, ExpressionError> {
+        let is_open = matches!(self.peek(), Some(Token { kind: TokenKind::Open, .. }));
+        let bare = if self.typed && !is_open { self.bare_argument() } else { None };
+        let inner = match bare {
+            Some(inner) => inner?,
+            None => self.bracketed(function, start, end)?,
+        };
+        let end = inner.node.end;
+        self.wrap(NodeKind::Call(function, Box::new(inner.node)), start, end, inner.height)
+    }
+
+    fn bracketed(&mut self, function: Function, start: usize, end: usize) -> Result<Parsed, ExpressionError> {
+        let name = function.name();
+        match self.next() {
+            Some(open) if open.kind == TokenKind::Open => self.group(open.start),
+            Some(other) if matches!(other.kind, TokenKind::Power | TokenKind::Superscript(_)) => {
+                Err(error(start, other.end, format!("`{name}` has a power before its argument"))
+                    .helped(format!("write `{name}(x)^2`")))
+            }
+            _ => Err(error(start, end, format!("`{name}` has no argument in parentheses"))
+                .helped(format!("write `{name}(x)`"))),
+        }
+    }
+
+    /// What a function or a root stands before without brackets, when nothing that follows can belong to it as well: `cos θ`,
+    /// `\cos\frac{π}{6}`, `cos 30°`, `√3/2`, but neither `sin 2x` nor `√2g`.
+    fn bare_argument(&mut self) -> Option<Result<Parsed, ExpressionError>> {
+        let first = self.peek()?.clone();
+        let mut after = self.at + 1;
+        match first.kind {
+            TokenKind::Open | TokenKind::Fraction => return Some(self.operand()),
+            TokenKind::Number(_) | TokenKind::Pi | TokenKind::Symbol { .. } => {}
+            _ => return None,
+        }
+        let degrees = self.tokens.get(after).filter(|token| token.kind == TokenKind::Degrees).cloned();
+        after += usize::from(degrees.is_some());
+        let is_name = !matches!(first.kind, TokenKind::Number(_));
+        let ends = match self.tokens.get(after).map(|token| &token.kind) {
+            None => true,
+            Some(TokenKind::Plus | TokenKind::Minus | TokenKind::Times | TokenKind::Over) => true,
+            Some(TokenKind::Close | TokenKind::Equals) => true,
+            // cos θ s
+            Some(TokenKind::Symbol { .. }) => self.typed && (is_name || degrees.is_some()),
+            Some(_) => false,
+        };
+        if !ends {
+            return None;
+        }
+        let operand = self.operand();
+        let Some(degrees) = degrees else { return Some(operand) };
+        self.at += 1;
+        Some(operand.and_then(|operand| self.in_degrees(operand, &degrees)))
+    }
+
+    fn in_degrees(&self, number: Parsed, sign: &Token) -> Result<Parsed, ExpressionError> {
+        let pi = leaf(NodeKind::Pi, sign.start, sign.end);
+        let half_turn = leaf(NodeKind::Number(180.into()), sign.start, sign.end);
+        let degree = self.join(NodeKind::Divide, pi, half_turn)?;
+        self.join(NodeKind::Multiply, number, degree)
     }
 
     /// The rest of a bracket opened at `start`.
@@ -360,6 +424,8 @@ fn describe(kind: &TokenKind) -> String {
         TokenKind::Open => "`(`".to_owned(),
         TokenKind::Close => "`)`".to_owned(),
         TokenKind::Fraction => "`\\frac`".to_owned(),
+        TokenKind::Root => "`√`".to_owned(),
+        TokenKind::Degrees => "`°`".to_owned(),
     }
 }
 
@@ -410,6 +476,37 @@ mod tests {
             ("(M + m)\u{a0}*\u{200b}x", "(M + m)*x"),
         ] {
             assert_eq!(Expression::parse(pasted).unwrap().to_string(), plain, "{pasted}");
+        }
+    }
+
+    #[test]
+    fn roots_degrees_and_small_digits_are_read() {
+        for (typed, plain) in [
+            ("√3/2", "sqrt(3)/2"),
+            ("√(3)/2", "sqrt(3)/2"),
+            ("2√h_0", "2*sqrt(h_0)"),
+            ("cos(30°)", "cos(30*(pi/180))"),
+            ("cos 30°", "cos(30*(pi/180))"),
+            ("cos(30^\\circ)", "cos(30*(pi/180))"),
+            ("\\cos{30^{\\circ}}", "cos(30*(pi/180))"),
+            ("m cos 30° s", "m*cos(30*(pi/180))*s"),
+            ("\\cos\\frac{\\pi}{6}", "cos(pi/6)"),
+            ("g\\cos\\theta_0 s", "g*cos(theta_0)*s"),
+            ("\\sqrt{3} s", "sqrt(3)*s"),
+            ("cos θ₀", "cos(theta0)"),
+            ("J₁J₂s³", "J1*J2*s^3"),
+            ("k₁₂x", "k12*x"),
+            ("Jₘs", "Jm*s"),
+            ("J_1J_2", "J_1J_2"),
+        ] {
+            assert_eq!(
+                Expression::parse_typed(typed).map(|e| e.to_string()),
+                Ok(plain.to_owned()),
+                "{typed}"
+            );
+        }
+        for typed in ["√2g", "√", "sin 2x", "sin x^2", "°", "cos", "√-1", "sin²x"] {
+            assert!(Expression::parse_typed(typed).is_err(), "{typed}");
         }
     }
 

@@ -214,6 +214,7 @@ impl Checker<'_> {
         let also = self.also(file);
         let models = models?;
         let sheet = sheet::sheet(&file.lab.value, &title, &questions, &parameters, &models, also);
+        self.spellings_at_rest(file, &sheet);
         let model_answer = self.model_answer(file, tree, &sheet)?;
         let near_misses = near_miss::near_misses(file, tree, &self.near_misses(file, &questions));
         Some(LabDefinition {

@@ -4,6 +4,7 @@ use crate::lab::Parameter;
 use crate::lab::file::{LabFile, ParameterFile, Text};
 use crate::lab::names::list;
 use crate::model::{DerivedParameter, DerivedParameters, Exact, ModelError};
+use crate::submission::AnswerSheet;
 use std::collections::BTreeMap;
 
 /// The parameters of a lab, and what follows from them.
@@ -131,6 +132,24 @@ impl Checker<'_> {
             }
         }
         also
+    }
+
+    /// No spelling of a parameter may be the letter of a value at rest, with or without `_`: nobody could tell which is meant.
+    pub(super) fn spellings_at_rest(&mut self, file: &LabFile, sheet: &AnswerSheet) {
+        let plain = |name: &str| name.replace('_', "");
+        let at_rest: Vec<&String> = sheet.letters.values().flat_map(|own| own.also.values()).collect();
+        for (name, p) in &file.parameters.0 {
+            for spelling in &p.also {
+                if let Some(letter) = at_rest.iter().find(|letter| plain(letter) == plain(&spelling.value)) {
+                    let message = format!(
+                        "`{}` would mean both `{}` and the value at rest `{letter}`",
+                        spelling.value, name.value
+                    );
+                    let help = "give the parameter another spelling".to_owned();
+                    self.error("lab.duplicate", span(spelling), message, Some(help));
+                }
+            }
+        }
     }
 
     /// What is accepted, and what is mistaken, besides its `value`.

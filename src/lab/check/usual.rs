@@ -62,8 +62,8 @@ impl Checker<'_> {
                     contradictions: None,
                     describes: None,
                     expected: field.expected.clone(),
-                    form: None,
-                    other_form: None,
+                    form: field.form.clone().filter(|_| index == 0),
+                    other_form: field.other_form.clone().filter(|_| index == 0),
                 };
                 criteria.push((
                     text(&name_of_criterion),
@@ -108,6 +108,8 @@ impl Checker<'_> {
                 ("tolerance", field.tolerance.as_ref().map(span)),
                 ("expected", text(&field.expected)),
                 ("concepts", field.concepts.as_ref().map(span)),
+                ("form", text(&field.form)),
+                ("other_form", text(&field.other_form)),
             ];
             for (key, place) in given.into_iter().filter_map(|(key, place)| Some((key, place?))) {
                 let message = format!("`{key}` of a field means nothing beside `criteria`");

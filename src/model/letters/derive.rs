@@ -1,7 +1,7 @@
 use super::super::{Equilibrium, Exact, Model, ParameterValues};
 use super::determinant::{coefficients, determinant, products};
 use super::form::{Signed, power_of_s, product};
-use super::rest::letter_of;
+use super::rest::{known_at_rest, letter_of};
 use super::ring::{Atom, Fraction, Generator, Ring, S};
 use super::signal::{Signal, capital};
 use super::symbolic::{at_rest, evaluate};
@@ -142,6 +142,16 @@ pub(super) fn derive(
         den_coefficients: unsigned(den_forms),
         relations,
         roots,
+        known: known_at_rest(model, at)
+            .into_iter()
+            .map(|one| {
+                let turns = match one.value {
+                    Exact::Known { pi, .. } => pi,
+                    _ => Rational::ZERO,
+                };
+                (one.letter, super::ring::number(turns).times(super::ring::node(NodeKind::Pi)))
+            })
+            .collect(),
         forcing: right.iter().map(|entry| ring.collected(entry, budget)).collect::<Result<_, _>>()?,
         matrix: written(&matrix, budget)?,
         function: LetterFunction { ring: ring.clone(), num: short_num, den: short_den },

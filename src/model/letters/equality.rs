@@ -4,7 +4,8 @@ use super::places::solved;
 use super::ring::{Atom, Fraction, Generator, Ring, S};
 use super::symbolic::evaluate;
 use super::{LetterDerivation, Trouble};
-use crate::algebra::{Budget, Expression, MultivariatePolynomial as Poly};
+use crate::algebra::{Budget, Expression, Letter, Monomial, MultivariatePolynomial as Poly, Rational};
+use std::collections::BTreeMap;
 
 /// Products of coefficients for one formula: a few hundredths of a second.
 const STEPS: usize = 60_000;
@@ -37,6 +38,7 @@ impl LetterDerivation {
             (0, false) => ring.named(name),
             _ => None,
         };
+        let formula = &self.with_rest(formula);
         let typed = evaluate(&mut ring, formula, &lookup, budget).ok()?;
         if self.at_rest(&ring, typed.den.clone(), budget).ok()?.is_zero() {
             return None;
@@ -47,7 +49,120 @@ impl LetterDerivation {
         let known = self.function.ring.generators.len();
         let is_call = |letter: usize| matches!(ring.generators[letter].atom, Atom::Call { .. });
         let disguised = ring.generators.len() > known || (0..known).any(is_call);
-        (!disguised).then_some(false)
+        if !disguised {
+            return Some(false);
+        }
+        // A root may be whole by what holds at rest: √(m g/K) is i₀/x₀.
+        let resolved = self.same_at_rest(formula, variable, &mut Budget::new(STEPS));
+        resolved.ok().filter(|same| *same)
+    }
+
+    /// The same with what holds at rest put into the formula before its roots are taken, and all letters that are positive as
+    /// squares, so that √a √b is √(a b).
+    fn same_at_rest(
+        &self,
+        formula: &Expression,
+        variable: &str,
+        budget: &mut Budget,
+    ) -> Result<bool, Trouble> {
+        let old = &self.function.ring;
+        let (mut ring, values) = self.in_squares(budget)?;
+        let mut names = BTreeMap::new();
+        for generator in &old.generators {
+            if let Atom::Name { name, .. } = &generator.atom
+                && let Some(letter) = old.named(name)
+            {
+                names.insert(name.clone(), mapped(&ring, &letter.num, &values, budget)?);
+            }
+        }
+        let lookup = |name: &str, primes: u8, _: &Ring| match (primes, name == variable) {
+            (0, true) => Some(Fraction::polynomial(Poly::letter(S))),
+            (0, false) => names.get(name).cloned(),
+            _ => None,
+        };
+        let typed = evaluate(&mut ring, formula, &lookup, budget)?;
+        let num = mapped(&ring, &self.function.num, &values, budget)?;
+        let den = mapped(&ring, &self.function.den, &values, budget)?;
+        let own = ring.quotient(&num, &den, budget)?;
+        let left = typed.num.times(&own.den, budget)?;
+        let right = typed.den.times(&own.num, budget)?;
+        Ok(ring.reduced(left.minus(&right, budget)?, budget)?.is_zero())
+    }
+
+    /// A ring of the letters that follow from no others at rest, and what each letter of the old ring is in it.
+    fn in_squares(&self, budget: &mut Budget) -> Result<(Ring, Vec<Option<Fraction>>), Trouble> {
+        let old = &self.function.ring;
+        // The root of a sum is a letter like others, for which the sum can be solved.
+        let is_sum =
+            |generator: &Generator| matches!(&generator.atom, Atom::Root { of, .. } if of.term_count() > 1);
+        let sums = self.roots.iter().filter(|root| root.term_count() > 2);
+        let solved = solved(old, self.relations.iter().chain(sums)).ok_or(Trouble::Undefined)?;
+        let mut ring = Ring::default();
+        let mut values: Vec<Option<Fraction>> = Vec::new();
+        for (index, generator) in old.generators.iter().enumerate() {
+            let follows = solved.iter().any(|(letter, _)| usize::from(*letter) == index);
+            let letter = |atom: Atom, value: f64, power: u32, ring: &mut Ring| {
+                let letter = ring.add(Generator { atom, value, exact: None });
+                Some(Fraction::polynomial(Poly::term(Rational::ONE, Monomial::letter(letter, power))))
+            };
+            values.push(match &generator.atom {
+                Atom::S | Atom::Pi => letter(generator.atom.clone(), generator.value, 1, &mut ring),
+                Atom::Name { name, order } if !follows && generator.value > 0.0 => {
+                    let atom = Atom::Name { name: name.clone(), order: 2 * order };
+                    letter(atom, generator.value.sqrt(), 2, &mut ring)
+                }
+                Atom::Name { .. } if !follows => {
+                    letter(generator.atom.clone(), generator.value, 1, &mut ring)
+                }
+                Atom::Root { .. } if is_sum(generator) => {
+                    let atom = Atom::Name { name: format!(" {index}"), order: 1 };
+                    letter(atom, generator.value, 1, &mut ring)
+                }
+                _ => None,
+            });
+        }
+        let is_known = |poly: &Poly, values: &[Option<Fraction>]| {
+            poly.letters().iter().all(|l| values[usize::from(*l)].is_some())
+        };
+        // What follows from letters that are known, until there is no more.
+        while let Some(index) = (0..values.len()).find(|index| {
+            values[*index].is_none()
+                && match &old.generators[*index].atom {
+                    Atom::Root { of, .. } => is_known(of, &values),
+                    Atom::Call { argument, .. } => {
+                        is_known(&argument.num, &values) && is_known(&argument.den, &values)
+                    }
+                    _ => solved.iter().any(|(letter, relation)| {
+                        let others = relation.letters().into_iter().filter(|other| other != letter);
+                        let mut others = others.map(|other| values[usize::from(other)].is_some());
+                        usize::from(*letter) == *index && others.all(|known| known)
+                    }),
+                }
+        }) {
+            let value = match &old.generators[index].atom {
+                Atom::Root { of, order } => {
+                    let of = mapped(&ring, of, &values, budget)?;
+                    ring.root(&of, *order, budget)?
+                }
+                Atom::Call { function, argument } => {
+                    let num = mapped(&ring, &argument.num, &values, budget)?;
+                    let den = mapped(&ring, &argument.den, &values, budget)?;
+                    let argument = ring.quotient(&num, &den, budget)?;
+                    Fraction::polynomial(Poly::letter(ring.call(*function, &argument)))
+                }
+                _ => {
+                    let of = solved.iter().find(|(letter, _)| usize::from(*letter) == index);
+                    let (letter, relation) = of.ok_or(Trouble::Undefined)?;
+                    let parts = relation.coefficients_of(*letter);
+                    let [rest, slope] = parts.as_slice() else { return Err(Trouble::Undefined) };
+                    let rest = mapped(&ring, &rest.negated(), &values, budget)?;
+                    let slope = mapped(&ring, slope, &values, budget)?;
+                    ring.quotient(&rest, &slope, budget)?
+                }
+            };
+            values[index] = Some(value);
+        }
+        Ok((ring, values))
     }
 
     fn difference(&self, ring: &Ring, typed: &Fraction, budget: &mut Budget) -> Result<Poly, Trouble> {
@@ -79,6 +194,34 @@ impl LetterDerivation {
         }
         ring.reduced(poly, budget)
     }
+}
+
+/// A polynomial with fractions in place of letters.
+fn mapped(
+    ring: &Ring,
+    poly: &Poly,
+    values: &[Option<Fraction>],
+    budget: &mut Budget,
+) -> Result<Fraction, Trouble> {
+    let mut used: Vec<(Letter, &Fraction, u32)> = Vec::new();
+    for letter in poly.letters() {
+        let value = values.get(usize::from(letter)).and_then(Option::as_ref).ok_or(Trouble::Undefined)?;
+        used.push((letter, value, poly.degree_in(letter)));
+    }
+    let (mut num, mut den) = (Poly::zero(), Poly::one());
+    for (monomial, coefficient) in poly.terms() {
+        let mut term = Poly::constant(coefficient.clone());
+        for (letter, value, highest) in &used {
+            let power = monomial.power_of(*letter);
+            term = term.times(&value.num.raised_to(power, budget)?, budget)?;
+            term = term.times(&value.den.raised_to(highest - power, budget)?, budget)?;
+        }
+        num = num.plus(&term, budget)?;
+    }
+    for (_, value, highest) in &used {
+        den = den.times(&value.den.raised_to(*highest, budget)?, budget)?;
+    }
+    ring.fraction(num, den, budget)
 }
 
 #[cfg(test)]
@@ -150,6 +293,16 @@ mod tests {
         equations: "J*w' + b*w = K*i; L*i' + R*i = V - K*w",
         at: "",
         output: "w",
+    };
+
+    const TILTED: System = System {
+        coordinates: "theta",
+        input: "T",
+        parameters: "m = 1; g = 9.81; l = 0.5; c = 0.1",
+        derived: "",
+        equations: "m*l^2*theta'' + c*theta' + m*g*l*sin(theta) = T",
+        at: "theta = pi/6; T = 9.81*0.25",
+        output: "theta",
     };
 
     const TANK: System = System {
@@ -273,11 +426,60 @@ mod tests {
             &[
                 "(-2*K*i_0/(m*x_0^2*L))/((s + R/L)*(s^2 - 2*K*i_0^2/(m*x_0^3)))",
                 "(-2*g/i_0)/((L*s + R)*(s^2 - 2*g/x_0))",
+                "(-2*g/(x_0*sqrt(m*g/K)))/((L*s + R)*(s^2 - 2*g/x_0))",
+                "(-2*sqrt(K*g/m)/x_0)/((L*s + R)*(s^2 - 2*g/x_0))",
                 "-2*g*R/V_0/((L*s + R)*(s^2 - 2*g/x_0))",
             ],
             &["(2*g/i_0)/((L*s + R)*(s^2 - 2*g/x_0))", "(-2*g/i_0)/((L*s + R)*(s^2 + 2*g/x_0))"],
-            // By the lab's numbers i₀ is positive, and i₀ = x₀ √(m g/K); polemark knows only its square.
-            &["(-2*g/(x_0*sqrt(m*g/K)))/((L*s + R)*(s^2 - 2*g/x_0))"],
+            // By the lab's numbers i₀ is positive, and i₀ = x₀ √(m g/K); which other root it is nobody can see.
+            &[
+                "(2*g/(x_0*sqrt(m*g/K)))/((L*s + R)*(s^2 - 2*g/x_0))",
+                "-2*sqrt(m*g/K + 1)/((L*s + R)*(s^2 - 2*g/x_0))",
+            ],
+        );
+        TILTED.check(
+            &[
+                "1/(m*l^2*s^2 + c*s + m*g*l*sqrt(3)/2)",
+                "1/(m*l^2*s^2 + c*s + m*g*l*√3/2)",
+                "1/(m*l^2*s^2 + c*s + m*g*l*cos(theta_0))",
+                "1/(m*l^2*s^2 + c*s + m*g*l*cos(pi/6))",
+                "1/(m*l^2*s^2 + c*s + m*g*l*cos(30°))",
+                r"\frac{1}{m l^2 s^2 + c s + m g l\cos\frac{\pi}{6}}",
+                "1/(m*l^2*s^2 + c*s + T_0*sqrt(3))",
+                "1/(m*l^2*s^2 + c*s + T_0/tan(theta_0))",
+                "1/(m*l^2*s^2 + c*s + m*g*l*sqrt(1 - sin(theta_0)^2))",
+                "1/(m*l^2*s^2 + c*s + sqrt(m^2*g^2*l^2 - T_0^2))",
+            ],
+            &[
+                "1/(m*l^2*s^2 + c*s + m*g*l/2)",
+                "1/(m*l^2*s^2 + c*s + m*g*l*sin(theta_0))",
+                "1/(m*l^2*s^2 + c*s - m*g*l*√3/2)",
+                "1/(m*l^2*s^2 + c*s + m*g*l*0.866)",
+            ],
+            &["1/(m*l^2*s^2 + c*s + m*g*l*sqrt(2)/2)"],
+        );
+        System {
+            coordinates: "h",
+            input: "q",
+            parameters: "A = 1; a = 0.01; g = 9.81",
+            derived: "",
+            equations: "A*h' = q - a*sqrt(2*g*h)",
+            at: "h = 2; q = 0.01*sqrt(2*9.81*2)",
+            output: "h",
+        }
+        .check(
+            &[
+                "1/(A*s + a*g/sqrt(2*g*h_0))",
+                "1/(A*s + a*sqrt(2*g*h_0)/(2*h_0))",
+                "1/(A*s + a*sqrt(2*g)*sqrt(h_0)/(2*h_0))",
+                "1/(A*s + a*sqrt(2*g)/(2*sqrt(h_0)))",
+                "1/(A*s + a*sqrt(4*g^2*h_0)/(2*h_0)/sqrt(2*g))",
+                "1/(A*s + a^2*g/q_0)",
+                "1/(A*s + a*sqrt(g/(2*h_0)))",
+                "1/(A*s + q_0/(2*h_0))",
+            ],
+            &["1/(A*s + a*g/(2*sqrt(2*g*h_0)))"],
+            &[],
         );
         System {
             coordinates: "x1 x2",

@@ -17,7 +17,7 @@ use crate::algebra::{Expression, MultivariatePolynomial, OverBudget, Polynomial,
 use crate::lti::TransferFunction;
 pub use equality::is_light;
 pub use places::LetterPlace;
-pub use rest::{LetterAtRest, letters_at_rest};
+pub use rest::{LetterAtRest, known_at_rest, letters_at_rest};
 use ring::Ring;
 pub use signal::Signal;
 use std::collections::BTreeMap;
@@ -58,6 +58,8 @@ pub struct LetterDerivation {
     pub num_coefficients: Vec<(u32, Expression)>,
     pub den_coefficients: Vec<(u32, Expression)>,
     function: LetterFunction,
+    /// What is 0 or a multiple of π at rest, by the name it would have as a letter: `theta_0`.
+    known: BTreeMap<String, Expression>,
     /// What is 0 among the letters: the equations at rest, and parameters that follow from others.
     relations: Vec<MultivariatePolynomial>,
     /// The same of roots that are letters.
@@ -170,6 +172,14 @@ impl LetterDerivation {
             _ => None,
         });
         named.collect()
+    }
+
+    /// The formula with what is 0 or a multiple of π at rest put in: cos(π/6) for `cos(theta_0)`.
+    pub fn with_rest(&self, formula: &Expression) -> Expression {
+        formula.replaced(&|node| match &node.kind {
+            crate::algebra::NodeKind::Symbol { name, primes: 0 } => self.known.get(name).cloned(),
+            _ => None,
+        })
     }
 
     /// Whether a letter is needed at all: without any, numbers are the answer.

@@ -257,6 +257,12 @@ impl Ring {
             }
         };
         let outside = self.fraction(outside, a.den.clone(), budget)?;
+        // √(v²) is −v where v is negative by the lab's numbers.
+        let outside = if order.is_multiple_of(2) && self.value_of(&outside) < 0.0 {
+            outside.negated()
+        } else {
+            outside
+        };
         if inside == Poly::one() {
             return Ok(outside);
         }
