@@ -3,12 +3,19 @@
 
 use super::file::{Entries, Text};
 use super::template::quoted;
-use super::{LabDefinition, LabErrors, Parameter, Variant, VariantRule, VariedParameter, read};
+use super::{
+    LabDefinition, LabErrors, OperatingPointDefinition, Parameter, Variant, VariantRule, VariedParameter,
+    read,
+};
 use crate::algebra::{Expression, Rational, from_f64, parse_decimal};
 use crate::lti::InputKind;
-use crate::model::{DerivedParameter, DerivedParameters, Exact, ParameterValues};
+use crate::model::{
+    DerivedParameter, DerivedParameters, Exact, LetterAtRest, ParameterValues, known_at_rest, letters_at_rest,
+};
 use crate::source::{Finding, SourceText, Span};
-use crate::submission::{AnswerSheet, AnsweredIn, Field, FieldKind, FieldLetters, LineNames, Unit};
+use crate::submission::{
+    AnswerSheet, AnsweredIn, Field, FieldKind, FieldLetters, LetterName, LineNames, Unit,
+};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What [`check`](crate::submission::self_check) needs of a lab, and no more.
@@ -38,6 +45,8 @@ struct EditionField {
     field: Field,
     answered_in: AnsweredIn,
     rest: Vec<LetterOfRest>,
+    /// The letters that are of use in it.
+    names: Vec<LetterName>,
     line: Option<LineNames>,
 }
 
@@ -87,6 +96,7 @@ impl StudentEdition {
             EditionField {
                 answered_in: own.map_or(AnsweredIn::Either, |own| own.answered_in),
                 rest: own.map_or_else(Vec::new, |own| letters_of_rest(lab, about, own)),
+                names: own.map_or_else(Vec::new, |own| own.names.clone()),
                 line: own.and_then(|own| own.line.clone()),
                 field: Field { about: hidden.or_else(|| field.about.clone()), ..field.clone() },
             }
@@ -159,20 +169,21 @@ impl EditionField {
         let mut own = FieldLetters {
             answered_in: self.answered_in,
             line: self.line.clone(),
+            names: self.names.clone(),
             ..FieldLetters::default()
         };
         for (place, one) in self.rest.iter().enumerate() {
-            let value = match one.stated.as_deref().and_then(|text| value_of(text, values)) {
-                // At 0 or a multiple of pi it has no letter.
-                Some(Exact::Known { rational, .. }) if rational.is_zero() => continue,
-                Some(value) => value.as_rational().cloned().or_else(|| from_f64(value.to_f64())),
-                None => None,
-            };
+            let value = one.stated.as_deref().and_then(|text| value_of(text, values));
+            let value =
+                value.and_then(|value| value.as_rational().cloned().or_else(|| from_f64(value.to_f64())));
             if value.is_none() {
                 own.untold.insert(one.letter.clone());
             }
+            // Nobody needs a letter for what is 0.
+            if value.as_ref().is_none_or(|value| *value != Rational::ZERO) {
+                own.also.insert(one.of.clone(), one.letter.clone());
+            }
             own.symbols.insert(one.letter.clone(), value.unwrap_or_else(|| stand_in(place)));
-            own.also.insert(one.of.clone(), one.letter.clone());
         }
         own
     }
@@ -185,19 +196,23 @@ fn value_of(text: &str, values: &ParameterValues) -> Option<Exact> {
 
 fn letters_of_rest(lab: &LabDefinition, system: Option<&str>, own: &FieldLetters) -> Vec<LetterOfRest> {
     let points = lab.models.iter().flat_map(|model| {
-        model.operating_points.iter().map(move |point| (format!("{}.{}", model.id, point.id), point))
+        let path = move |point: &OperatingPointDefinition| format!("{}.{}", model.id, point.id);
+        model.operating_points.iter().map(move |point| (path(point), model, point))
     });
-    let point = points.filter(|(path, _)| Some(path.as_str()) == system).map(|(_, point)| point).next();
-    let stated = |name: &str| {
-        let point = point.filter(|point| !point.solved.contains(name))?;
-        point.at_text.iter().find(|(known, _)| known == name).map(|(_, text)| text.trim().to_owned())
+    let Some((_, model, point)) = points.into_iter().find(|(path, _, _)| Some(path.as_str()) == system)
+    else {
+        return Vec::new();
     };
-    let letters = own.also.iter().map(|(of, letter)| LetterOfRest {
-        letter: letter.clone(),
-        of: of.clone(),
-        stated: stated(of),
-    });
-    letters.collect()
+    let at_rest = letters_at_rest(&model.model, &point.at);
+    let known = known_at_rest(&model.model, &point.at);
+    let letters = at_rest.into_iter().chain(known).filter(|one| own.symbols.contains_key(&one.letter));
+    // What is not stated is 0, or follows from the rest.
+    let stated = |one: &LetterAtRest| {
+        let text = point.at_text.iter().find(|(name, _)| *name == one.name).map(|(_, text)| text.trim());
+        let zero = one.value.as_rational().is_some_and(|value| *value == Rational::ZERO).then_some("0");
+        text.or(zero).filter(|_| !point.solved.contains(&one.name)).map(str::to_owned)
+    };
+    letters.map(|one| LetterOfRest { stated: stated(&one), letter: one.letter, of: one.name }).collect()
 }
 
 /// Places in a lab file mean nothing to its students.
@@ -325,6 +340,14 @@ impl EditionField {
             let names = format!("{{output: {}, input: {}, at_rest: [{at_rest}]}}", names.output, names.input);
             line("line", &names);
         }
+        if !self.names.is_empty() {
+            let each = self.names.iter().map(|one| {
+                let spellings = std::iter::once(&one.name).chain(&one.also);
+                let spellings: Vec<String> = spellings.map(|name| filled(name)).collect();
+                format!("[{}]", spellings.join(", "))
+            });
+            line("letters", &format!("[{}]", each.collect::<Vec<_>>().join(", ")));
+        }
         if !self.rest.is_empty() {
             line("rest", "");
         }
@@ -401,6 +424,9 @@ struct EditionFieldFile {
     #[serde(rename = "in")]
     answered_in: Option<AnsweredInFile>,
     line: Option<LineFile>,
+    /// Each letter, then its other spellings.
+    #[serde(default)]
+    letters: Vec<Vec<String>>,
     #[serde(default)]
     rest: Vec<LetterOfRestFile>,
 }
@@ -491,6 +517,14 @@ impl EditionFieldFile {
                 Some(AnsweredInFile::Letters) => AnsweredIn::Letters,
                 Some(AnsweredInFile::Numbers) => AnsweredIn::Numbers,
             },
+            names: self
+                .letters
+                .into_iter()
+                .filter_map(|spellings| {
+                    let mut spellings = spellings.into_iter();
+                    Some(LetterName { name: spellings.next()?, also: spellings.collect() })
+                })
+                .collect(),
             line: self.line.map(|LineFile { output, input, at_rest }| LineNames { output, input, at_rest }),
             rest: self
                 .rest
@@ -547,8 +581,10 @@ mod tests {
             for (mut sheet, mut whole) in own {
                 for (path, letters) in &mut sheet.letters {
                     let hidden = std::mem::take(&mut letters.untold);
-                    letters.symbols.retain(|letter, _| !hidden.contains(letter));
-                    whole.letters.get_mut(path).unwrap().symbols.retain(|letter, _| !hidden.contains(letter));
+                    for one in [letters, whole.letters.get_mut(path).unwrap()] {
+                        one.symbols.retain(|letter, _| !hidden.contains(letter));
+                        one.also.retain(|_, letter| !hidden.contains(letter));
+                    }
                 }
                 for (hidden, told) in sheet.fields.iter_mut().zip(&mut whole.fields) {
                     if hidden.about.as_deref().is_some_and(|about| about.starts_with("simulation_")) {
