@@ -18,6 +18,7 @@
 //!     report                 Scorecard → view → figure → svg → html
 //!     proof                  a lab proves itself: stated values, second route, model answer, blank
 //!     class                  many submissions: in parallel, gradebook, statistics
+//!     gradebook              records → Canvas, Moodle, Gradescope, Excel; reports to hand back
 //!     cli                    new · check · grade · verify · reference
 //! ```
 //!
@@ -40,6 +41,7 @@ pub mod reference;
 
 pub mod class;
 pub mod cli;
+pub mod gradebook;
 pub mod grading;
 pub mod proof;
 pub mod report;

@@ -20,16 +20,19 @@ mod students_seen;
 mod without_marks;
 mod workplace;
 
+pub use gradebook::{GradebookCell, disarmed, gradebook_columns, gradebook_row};
 pub use handouts::{HandoutError, Handouts, write_handouts};
 pub use intake::{
     AnswerFile, Archive, ArchiveError, Aside, HandedIn, Intake, IntakeError, Lms, NotRead, Place, Superseded,
     WhyAside, find_answer_files, read_capped,
 };
 pub use marked::Marked;
+pub(crate) use new_file::NewFile;
 pub use numbers::read_with_own_values;
 pub use others::OtherVariant;
 pub use outcome::Outcome;
-pub use record::{HOLDS, Record, Status, StudentRecord};
+pub use record::{HOLDS, ItemRecord, Record, ReviewRecord, Status, StudentRecord};
+pub(crate) use roster::name_words;
 pub use roster::{Roster, RosterError, RosterStudent};
 pub use run::{ClassError, ClassJob, Progress, grade_class};
 pub use without_marks::ids_given_twice;

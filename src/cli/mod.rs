@@ -1,7 +1,8 @@
-//! The command line: labs · new · handout · check · grade · verify · reference · schema. Alone prints, reads the environment,
-//! ends the process.
+//! The command line: labs · new · handout · check · grade · export · verify · reference · schema. Alone prints, reads the
+//! environment, ends the process.
 
 mod check;
+mod export;
 mod format;
 mod grade;
 mod handout;
@@ -31,6 +32,7 @@ enum Verb {
     Check(check::Arguments),
     Handout(handout::Arguments),
     Grade(grade::Arguments),
+    Export(export::Arguments),
     Verify(verify::Arguments),
     Reference(reference::Arguments),
     Schema(schema::Arguments),
@@ -46,6 +48,7 @@ pub fn main() -> ExitCode {
         Verb::Check(arguments) => check::run(&arguments),
         Verb::Handout(arguments) => handout::run(&arguments),
         Verb::Grade(arguments) => grade::run(&arguments),
+        Verb::Export(arguments) => export::run(&arguments),
         Verb::Verify(arguments) => verify::run(&arguments),
         Verb::Reference(arguments) => reference::run(&arguments),
         Verb::Schema(arguments) => schema::run(&arguments),

@@ -1,5 +1,7 @@
+use super::export::ExportFailure;
 use crate::annotations::JunitError;
 use crate::class::{ClassError, IntakeError, Roster, RosterError};
+use crate::gradebook::ExportError;
 use crate::lab::{LabDefinition, LoadError};
 use crate::reference::{Reference, ReferenceError};
 use crate::report::ReportError;
@@ -42,6 +44,10 @@ pub enum Failure {
     Roster(#[from] RosterError),
     #[error("error: {0}")]
     Student(#[from] StudentError),
+    #[error("error: {0}")]
+    Export(#[from] ExportError),
+    #[error("error: {0}")]
+    ExportArguments(#[from] ExportFailure),
     #[error("{rendered}")]
     Marks { rendered: String },
 }
@@ -70,6 +76,11 @@ fn load_error(error: &LoadError) -> String {
 
 pub fn load_lab(lab: Option<&str>) -> Result<LabDefinition, Failure> {
     crate::lab::load(lab.unwrap_or(crate::lab::DEFAULT)).map_err(Failure::Load)
+}
+
+/// The bytes of a file.
+pub fn load_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
+    std::fs::read(path).map_err(|error| Failure::Read { path: path.to_path_buf(), error })
 }
 
 /// A roster, and on standard error what to look at in it.
