@@ -30,10 +30,10 @@ pub fn self_check(submission: &Submission, sheet: &AnswerSheet) -> Vec<Finding> 
     findings.extend(unworkable(submission, sheet));
     let mut systems: BTreeMap<&str, System<'_>> = BTreeMap::new();
     for field in &sheet.fields {
-        if let (Some(about), Some(answer)) = (field.about.as_deref(), submission.answers.get(&field.path)) {
-            if !sheet.leans_on_untold(answer) {
-                systems.entry(about).or_insert_with(|| System::new(submission)).add(field, answer);
-            }
+        if let (Some(about), Some(answer)) = (field.about.as_deref(), submission.answers.get(&field.path))
+            && !sheet.leans_on_untold(answer)
+        {
+            systems.entry(about).or_insert_with(|| System::new(submission)).add(field, answer);
         }
     }
     findings.extend(systems.values().flat_map(System::contradictions));
