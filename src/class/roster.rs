@@ -81,6 +81,9 @@ const MOST_BYTES: usize = 8 << 20;
 const MOST_OF_AN_ID: usize = 100;
 const MOST_OF_A_NAME: usize = 200;
 
+/// Words of a name that it may begin with when it is run together.
+const MOST_TURNS: usize = 8;
+
 /// Column names, as letters and digits only, the likeliest first.
 const ID: &[&str] = &[
     "id",
@@ -232,7 +235,7 @@ impl Roster {
             keys.push((Key::Identifier, folded_id(other)));
         }
         let words = name_words(&student.name);
-        for turn in 0..words.len() {
+        for turn in 0..words.len().min(MOST_TURNS) {
             keys.push((Key::RunTogether, [&words[turn..], &words[..turn]].concat().concat()));
         }
         keys.push((Key::Name, sorted(words).join(" ")));

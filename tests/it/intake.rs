@@ -2,9 +2,10 @@
 
 use crate::class::Class;
 use crate::forms::{self, FORMS, Form};
-use polemark::class::{Record, Status};
+use polemark::class::{Record, Status, find_answer_files};
 use polemark::lab;
 use polemark::reference::Reference;
+use polemark::submission::AnswerValue;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::io::Write;
@@ -322,4 +323,51 @@ fn moodles_groups_are_held_against_the_list_of_the_course() {
     );
     let row = ran.records[0].students[0].roster.as_ref().expect("on the roster");
     assert_eq!((row.moodle_id.as_deref(), row.email.as_deref()), (Some("504"), Some("a@x.org")));
+}
+
+#[test]
+fn files_that_are_named_one_by_one_find_their_own_data_and_owners() {
+    let bench = tempfile::tempdir().expect("a folder");
+    let folder = bench.path();
+    let moodle = folder.join("Jane Doe_1234_assignsubmission_file");
+    fs::create_dir(&moodle).expect("made");
+    let data = "answers: {hanging.response: {data: own.csv}}\n";
+    let files = [
+        ("doejane_1_100_lab.yaml", data),
+        ("doejane_1_101_own.csv", "t, y\n0, 1\n1, 2\n"),
+        ("smithbob_2_102_lab.yaml", data),
+        ("own.csv", "t, y\n0, 5\n1, 5\n"),
+        ("Jane Doe_1234_assignsubmission_file/lab.yaml", data),
+        ("Jane Doe_1234_assignsubmission_file/own.csv", "t, y\n0, 7\n1, 7\n"),
+    ];
+    for (name, text) in files {
+        fs::write(folder.join(name), text).expect("written");
+    }
+    let paths: Vec<PathBuf> =
+        files.iter().filter(|(name, _)| name.ends_with(".yaml")).map(|(name, _)| folder.join(name)).collect();
+    let intake = find_answer_files(&paths, None).expect("found");
+    let lab = lab::load(lab::DEFAULT).expect("the embedded lab");
+    let seen: Vec<(String, Option<String>, Option<f64>)> = intake
+        .files
+        .iter()
+        .map(|file| {
+            let value =
+                file.read(&lab.sheet).answers.remove("hanging.response.data").map(|answer| answer.value);
+            let first = match value {
+                Some(Ok(AnswerValue::Data(series))) => Some(series.rows[0][1]),
+                _ => None,
+            };
+            (file.name.clone(), file.handed_in.owner.clone(), first)
+        })
+        .collect();
+    let owner = |name: &str| Some(name.to_owned());
+    assert_eq!(
+        seen,
+        [
+            ("doejane_1_100_lab.yaml".to_owned(), owner("doejane"), Some(1.0)),
+            // Somebody else's data is nobody's.
+            ("smithbob_2_102_lab.yaml".to_owned(), owner("smithbob"), None),
+            ("Jane Doe_1234_assignsubmission_file/lab.yaml".to_owned(), owner("Jane Doe"), Some(7.0)),
+        ]
+    );
 }

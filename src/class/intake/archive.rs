@@ -68,13 +68,13 @@ impl Archive {
     pub fn open(path: &Path) -> Result<Self, ArchiveError> {
         let mut reader = Positioned::open(path)?;
         let (found, directory) = claimed(&mut reader)?;
-        if directory > MOST_OF_A_DIRECTORY {
-            let limit = MOST_OF_A_DIRECTORY >> 20;
-            return Err(ArchiveError::LargeDirectory { found: directory >> 20, limit });
-        }
         let too_many = |found| ArchiveError::TooManyEntries { found, limit: MOST_ENTRIES };
         if found > MOST_ENTRIES {
             return Err(too_many(found));
+        }
+        if directory > MOST_OF_A_DIRECTORY {
+            let limit = MOST_OF_A_DIRECTORY >> 20;
+            return Err(ArchiveError::LargeDirectory { found: directory >> 20, limit });
         }
         let zip = ZipArchive::new(reader).map_err(not_zip)?;
         if zip.len() as u64 > MOST_ENTRIES {

@@ -7,8 +7,6 @@ pub struct Aside {
     /// As [`AnswerFile::name`](super::AnswerFile::name).
     pub name: String,
     pub why: WhyAside,
-    /// The answer file of the same owner that is marked, where there is one: its `id`.
-    pub beside: Option<String>,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -111,12 +111,46 @@ pub fn find_answer_files(paths: &[PathBuf], leave_out: Option<&Path>) -> Result<
             found.push(file);
         }
     }
+    let beside = beside_given(&found).into_iter().filter(|(place, _)| !seen.contains(place));
+    found.extend(beside.map(|(_, file)| file).collect::<Vec<_>>());
     Ok(owners::sorted_out(found))
 }
 
 fn alone(path: &Path, source: usize) -> Found {
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    Found { place: Place::File(path.to_path_buf()), name, named: true, source, changed: None }
+    let folder = path.parent().and_then(Path::file_name).map(|folder| folder.to_string_lossy());
+    let name = match folder {
+        Some(folder) if owners::is_folder_of_moodle(&folder) => format!("{folder}/{name}"),
+        _ => name,
+    };
+    let place = Place::File(path.to_path_buf());
+    Found { place, name, named: true, source, changed: None, beside_given: false }
+}
+
+/// (place, file) of what lies beside named files that an LMS has put among those of a whole class: answers may name them.
+fn beside_given(found: &[Found]) -> Vec<(PathBuf, Found)> {
+    let mut folders = BTreeSet::new();
+    for file in found.iter().filter(|file| file.named && owners::is_among_a_class(file)) {
+        if let Place::File(path) = &file.place {
+            folders.insert(path.parent().unwrap_or(Path::new("")).to_path_buf());
+        }
+    }
+    let mut beside = Vec::new();
+    for folder in folders {
+        let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
+        let mut paths: Vec<PathBuf> = std::fs::read_dir(&folder)
+            .into_iter()
+            .flatten()
+            .filter_map(|entry| Some(entry.ok()?.path()))
+            .filter(|path| path.is_file() && !path.is_symlink())
+            .collect();
+        paths.sort();
+        for path in paths {
+            let Ok(place) = path.canonicalize() else { continue };
+            beside.push((place, Found { named: false, beside_given: true, ..alone(&path, usize::MAX) }));
+        }
+    }
+    beside
 }
 
 fn in_folder(folder: &Path, source: usize) -> Result<Vec<Found>, IntakeError> {
@@ -131,7 +165,14 @@ fn in_folder(folder: &Path, source: usize) -> Result<Vec<Found>, IntakeError> {
         let path = entry.into_path();
         let relative = path.strip_prefix(folder).unwrap_or(&path);
         let name = relative.to_string_lossy().replace('\\', "/");
-        found.push(Found { place: Place::File(path), name, named: false, source, changed: None });
+        found.push(Found {
+            place: Place::File(path),
+            name,
+            named: false,
+            source,
+            changed: None,
+            beside_given: false,
+        });
     }
     if !owners::has_answers(&found) {
         let archive = found.iter().find(|file| has_ending(&file.name, &[".zip"]));
@@ -162,6 +203,7 @@ fn in_archive(path: &Path, source: usize) -> Result<Vec<Found>, IntakeError> {
             named: false,
             source,
             changed: entry.changed,
+            beside_given: false,
         })
         .collect();
     // As a folder is walked.

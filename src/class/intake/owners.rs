@@ -17,11 +17,13 @@ pub struct Found {
     pub source: usize,
     /// When an archive says it was last changed.
     pub changed: Option<u64>,
+    /// Not given, but beside a file that is: its owner's answers may name it.
+    pub beside_given: bool,
 }
 
 impl Found {
     fn is_answer(&self) -> bool {
-        self.named || answer_stem(&self.name).is_some()
+        !self.beside_given && (self.named || answer_stem(&self.name).is_some())
     }
 
     fn folder(&self) -> &str {
@@ -31,6 +33,16 @@ impl Found {
     fn file_name(&self) -> &str {
         self.name.rsplit_once('/').map_or(self.name.as_str(), |(_, name)| name)
     }
+}
+
+/// Whether an LMS has put the files of a whole class beside this one, each under its owner's name.
+pub fn is_among_a_class(file: &Found) -> bool {
+    lms_name(file, &BTreeSet::new()).is_some_and(|said| said.flat_name.is_some())
+}
+
+/// Whether a folder is one that Moodle has made for a student.
+pub fn is_folder_of_moodle(name: &str) -> bool {
+    moodle(name).is_some_and(|name| name.file.is_empty())
 }
 
 /// Whether there is something to mark, or somebody who handed something in.
@@ -44,15 +56,17 @@ pub fn sorted_out(files: Vec<Found>) -> Intake {
     let of_canvas = canvas_folders(&files);
     let mut said: Vec<Option<Said>> = files.iter().map(|file| lms_name(file, &of_canvas)).collect();
     hide_names(&mut said);
-    let mut owned: BTreeMap<Key, Vec<usize>> = BTreeMap::new();
+    let mut owned: BTreeMap<Key, Owned> = BTreeMap::new();
     for (at, said) in said.iter().enumerate() {
         if let Some(key) = said.as_ref().and_then(key) {
-            owned.entry(key).or_default().push(at);
+            let owned = owned.entry(key).or_default();
+            owned.has_answers |= files[at].is_answer();
+            owned.places.push(at);
         }
     }
     let mut beside: BTreeMap<&Key, Arc<Vec<OwnFile>>> = BTreeMap::new();
-    for (key, places) in &owned {
-        let own = places.iter().filter_map(|at| {
+    for (key, owned) in owned.iter().filter(|(_, owned)| owned.has_answers) {
+        let own = owned.places.iter().take(MOST_OWN_FILES).filter_map(|at| {
             let (file, said) = (&files[*at], said[*at].as_ref()?);
             let name = said.flat_name.clone()?;
             Some(OwnFile { name, attempt: said.handed_in.attempt.unwrap_or(0), place: file.place.clone() })
@@ -65,24 +79,24 @@ pub fn sorted_out(files: Vec<Found>) -> Intake {
     for (at, file) in files.iter().enumerate() {
         let said = said[at].as_ref();
         let key = said.and_then(key);
-        let others = key.as_ref().and_then(|key| owned.get(key));
-        let answers = |others: &Vec<usize>| others.iter().any(|at| files[*at].is_answer());
-        let stands_for_owner = match others {
-            Some(others) => !answers(others) && others.first() == Some(&at),
-            None => false,
-        };
+        if file.beside_given {
+            continue;
+        }
+        let owned = key.as_ref().and_then(|key| owned.get(key));
+        let has_answers = owned.is_none_or(|owned| owned.has_answers);
+        let stands_for_owner = !has_answers && owned.is_some_and(|owned| owned.places.first() == Some(&at));
         if !file.is_answer() && !stands_for_owner {
             let is_online_text = said.is_some_and(|said| said.is_online_text);
             // Who handed in nothing else has an entry that names them all.
-            if others.is_none_or(answers)
-                && let Some(why) = WhyAside::of(&file.name, is_online_text)
-            {
-                intake.aside.push(Aside { name: file.name.clone(), why, beside: None });
+            if has_answers && let Some(why) = WhyAside::of(&file.name, is_online_text) {
+                intake.aside.push(Aside { name: file.name.clone(), why });
             }
             continue;
         }
-        let only_others = match others {
-            Some(others) if stands_for_owner => others.iter().map(|at| files[*at].name.clone()).collect(),
+        let only_others = match owned {
+            Some(owned) if stands_for_owner => {
+                owned.places.iter().map(|at| files[*at].name.clone()).collect()
+            }
             _ => Vec::new(),
         };
         let own_files =
@@ -109,6 +123,16 @@ pub fn sorted_out(files: Vec<Found>) -> Intake {
         });
     }
     intake
+}
+
+/// Files of one owner that answers may name.
+const MOST_OWN_FILES: usize = 1000;
+
+/// The files of one owner.
+#[derive(Default)]
+struct Owned {
+    places: Vec<usize>,
+    has_answers: bool,
 }
 
 /// One owner, in however many downloads: (LMS, name, number).
@@ -141,7 +165,7 @@ fn lms_name(file: &Found, of_canvas: &BTreeSet<(usize, String)>) -> Option<Said>
     if let Some(name) = moodle(own).filter(|name| !name.file.is_empty()) {
         return Some(said(name, true));
     }
-    let is_canvas = match file.named {
+    let is_canvas = match file.named || file.beside_given {
         true => canvas(own).is_some_and(|name| has_long_numbers(&name)),
         false => of_canvas.contains(&(file.source, file.folder().to_owned())),
     };
@@ -151,7 +175,7 @@ fn lms_name(file: &Found, of_canvas: &BTreeSet<(usize, String)>) -> Option<Said>
 /// Folders whose answer files are all called as Canvas does it: a single `lab_1_2_final.yaml` is somebody's own name.
 fn canvas_folders(files: &[Found]) -> BTreeSet<(usize, String)> {
     let mut folders: BTreeMap<(usize, String), (bool, usize, bool)> = BTreeMap::new();
-    for file in files.iter().filter(|file| !file.named) {
+    for file in files.iter().filter(|file| !file.named && !file.beside_given) {
         let folder = folders.entry((file.source, file.folder().to_owned())).or_insert((true, 0, false));
         match canvas(file.file_name()) {
             Some(name) => {
