@@ -121,7 +121,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
                 Target::CanvasFeedback => FeedbackFor::Canvas,
                 _ => FeedbackFor::Moodle,
             };
-            let summary = write_feedback(records, &arguments.folder, lms, &rules, &mut new.file)?;
+            let summary = write_feedback(&arguments.folder, lms, &rules, &mut new.file)?;
             new.finish()?;
             ("report", summary)
         }

@@ -10,7 +10,7 @@ use crate::class::{Lms, disarmed};
 /// - The columns up to `Section`, which say who it is, as they are in the export, and one assignment, whose header is
 ///   `Title (id)`; no other assignment, no totals, no columns of the teacher's own, so that nothing else can change.
 /// - The rows of those whose mark is passed on, in the order of the export. Nobody else has a row: an empty cell would take
-///   away the score that is there, since only where both are empty does the importer see no change.
+///   away the score that is there: only where both are empty does the importer see no change, and what it shows as a change is sent.
 /// - Whoever is excused (`EX`) stays excused, and the test student has no row.
 /// - The row `Points Possible` as it is, and `Manual Posting` where there is one.
 /// - Marks have two decimals, to which the importer rounds both sides before it compares them, and a decimal point.
@@ -19,7 +19,8 @@ use crate::class::{Lms, disarmed};
 /// `assignment` is the title, the number or both. Errors: no such assignment; the points of the assignment are not those of the
 /// marks.
 /// Source: instructure/canvas-lms, `lib/gradebook_importer.rb` (`header?`, `update_column_count`, `strip_non_assignment_columns`,
-/// `check_for_non_student_row`, `no_change_to_value?`), `Assignment.title_and_id`, `lib/gradebook_exporter.rb`.
+/// `check_for_non_student_row`, `no_change_to_value?`), `Assignment.title_and_id`, `lib/gradebook_exporter.rb`, and
+/// `populateGradeDataPerSubmission` of its page.
 pub fn canvas_filled(
     class: &ClassMarks,
     file: &[u8],

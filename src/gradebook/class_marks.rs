@@ -40,6 +40,7 @@ pub fn out_of(record: &Record) -> Points {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Person {
     pub id: String,
+    /// By the roster, else as they wrote it.
     pub name: String,
     pub roster: Option<Box<RosterStudent>>,
     /// Who handed it in, where that can only be this student.
@@ -117,6 +118,7 @@ impl ClassMarks {
             return;
         }
         seen.insert(key, self.people.len());
+        let on_roster = student.roster.as_deref().map(|row| &row.name);
         let alone = record.students.len() == 1;
         let handed_in = record.handed_in.clone().filter(|one| alone && one.group.is_none());
         let questions = record.questions.iter();
@@ -127,7 +129,7 @@ impl ClassMarks {
             .collect();
         self.people.push(Person {
             id: student.id.clone(),
-            name: student.name.clone(),
+            name: on_roster.filter(|name| !name.is_empty()).unwrap_or(&student.name).clone(),
             roster: student.roster.clone(),
             handed_in,
             file: record.file.clone(),
@@ -148,5 +150,102 @@ impl ClassMarks {
             }
         }
         summary
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gradebook::tests::record;
+    use crate::lab::Points;
+
+    /// Each student with the mark or the reason.
+    #[track_caller]
+    fn check(what: &str, records: Vec<Record>, rules: Rules, people: &[&str]) {
+        let class = ClassMarks::read(records.into_iter().map(Ok), &rules).unwrap();
+        let shown: Vec<String> = class
+            .people
+            .iter()
+            .map(|one| match &one.mark {
+                Ok(mark) => format!("{} {mark}", one.id),
+                Err(why) => format!("{}: {why}", one.id),
+            })
+            .collect();
+        assert_eq!(shown, people, "{what}");
+    }
+
+    fn finding(code: &str) -> crate::class::FindingRecord {
+        crate::class::FindingRecord {
+            severity: "warning".to_owned(),
+            code: code.to_owned(),
+            message: "somebody has to look".to_owned(),
+            line: None,
+            column: None,
+        }
+    }
+
+    #[test]
+    fn only_final_marks_are_passed_on() {
+        let all = || {
+            let mut group = record("EE-001", "Jane");
+            group.students.extend(record("EE-002", "John").students);
+            let mut held = record("EE-003", "");
+            held.findings.push(finding("student.not_on_roster"));
+            let mut noted = record("EE-004", "");
+            noted.findings.push(finding("intake.owner"));
+            let mut provisional = record("EE-005", "");
+            provisional.total.provisional = Points(50);
+            let mut box_empty = record("EE-006", "");
+            (box_empty.cover[1].earned, box_empty.cover_total) = (None, None);
+            let mut missing = record("EE-007", "");
+            (missing.status, missing.cover_total) = (Status::Missing, None);
+            missing.cover.iter_mut().for_each(|one| one.earned = None);
+            let mut failed = record("EE-008", "");
+            failed.failed = true;
+            let mut superseded = record("EE-004", "");
+            superseded.status = Status::Superseded;
+            let (first, again) = (record("EE-009", ""), record("ee 009", ""));
+            vec![group, held, noted, provisional, box_empty, missing, failed, superseded, first, again]
+        };
+        let several = "EE-009: several files count for this student: EE-009.yaml, ee 009.yaml";
+        let failed = "EE-008: polemark failed on the answer file";
+        check(
+            "as a rule",
+            all(),
+            Rules::default(),
+            &[
+                "EE-001 7.5",
+                "EE-002 7.5",
+                "EE-003: somebody has to look",
+                "EE-004 7.5",
+                "EE-005: 1 criterion waits for a person",
+                "EE-006: 1 box of the cover sheet is not filled in yet",
+                "EE-007: handed nothing in",
+                failed,
+                several,
+            ],
+        );
+        let rules = Rules { as_it_stands: true, zero_for_missing: true, scale_to: Some(Points(10_000)) };
+        let out = [
+            "EE-001 75",
+            "EE-002 75",
+            "EE-003 75",
+            "EE-004 75",
+            "EE-005 75",
+            "EE-006 45",
+            "EE-007 0",
+            failed,
+            several,
+        ];
+        check("as it stands, of 100", all(), rules, &out);
+    }
+
+    #[test]
+    fn marks_of_two_labs_are_not_mixed() {
+        let mut other = record("EE-002", "");
+        other.cover[0].possible = Points(100);
+        let read = ClassMarks::read([Ok(record("EE-001", "")), Ok(other)].into_iter(), &Rules::default());
+        assert!(matches!(read, Err(ExportError::TwoScales { .. })));
+        assert!(matches!(ClassMarks::read(std::iter::empty(), &Rules::default()), Err(ExportError::Empty)));
     }
 }

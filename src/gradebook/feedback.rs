@@ -1,8 +1,8 @@
 use super::class_marks::Rules;
-use super::{ExportError, Summary, Why};
+use super::{ExportError, Records, Summary, Why};
 use crate::class::{HandedIn, Lms, Record};
 use crate::source::sanitize;
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::io::{Read, Seek, Write};
 use std::path::{Component, Path, PathBuf};
 use zip::write::SimpleFileOptions;
@@ -30,7 +30,6 @@ pub enum FeedbackFor {
 /// group work the whole group gets it. The last part must not begin with `link`, nor the name with `._`.
 /// Source: instructure/canvas-lms, `Assignment#infer_comment_context_from_filename` and `#generate_comments_from_files`.
 pub fn write_feedback<W: Write + Seek>(
-    records: impl Iterator<Item = Result<Record, ExportError>>,
     out: &Path,
     lms: FeedbackFor,
     rules: &Rules,
@@ -42,8 +41,8 @@ pub fn write_feedback<W: Write + Seek>(
         .last_modified_time(DateTime::default())
         .unix_permissions(0o644);
     let mut summary = Summary::default();
-    let mut names = BTreeSet::new();
-    for record in records {
+    let names = names_wanted(out, lms, rules)?;
+    for record in Records::open(out)? {
         let record = record?;
         if !record.counts() {
             continue;
@@ -52,10 +51,7 @@ pub fn write_feedback<W: Write + Seek>(
             summary.leave_out(who(&record), why);
             continue;
         }
-        let receivers = match lms {
-            FeedbackFor::Moodle => moodle_receivers(&record, &mut summary),
-            FeedbackFor::Canvas => canvas_receivers(&record, &mut summary),
-        };
+        let receivers = receivers(lms, &record, &mut summary);
         if receivers.is_empty() {
             continue;
         }
@@ -64,9 +60,8 @@ pub fn write_feedback<W: Write + Seek>(
             continue;
         };
         for receiver in receivers {
-            // Two entries of one name would overwrite each other.
-            if !names.insert(receiver.clone()) {
-                summary.leave_out(who(&record), Why::SeveralFiles(vec![record.file.clone()]));
+            if names.get(&receiver).is_some_and(|count| *count > 1) {
+                summary.leave_out(who(&record), Why::SharedNumber);
                 continue;
             }
             zip.start_file(receiver, options)?;
@@ -76,6 +71,27 @@ pub fn write_feedback<W: Write + Seek>(
     }
     zip.finish()?;
     Ok(summary)
+}
+
+/// How many reports would have each name: where there are several, everybody would get the report of one.
+fn names_wanted(out: &Path, lms: FeedbackFor, rules: &Rules) -> Result<BTreeMap<String, usize>, ExportError> {
+    let mut names = BTreeMap::new();
+    for record in Records::open(out)? {
+        let record = record?;
+        if record.counts() && rules.mark(&record).is_ok() {
+            for name in receivers(lms, &record, &mut Summary::default()) {
+                *names.entry(name).or_insert(0) += 1;
+            }
+        }
+    }
+    Ok(names)
+}
+
+fn receivers(lms: FeedbackFor, record: &Record, summary: &mut Summary) -> Vec<String> {
+    match lms {
+        FeedbackFor::Moodle => moodle_receivers(record, summary),
+        FeedbackFor::Canvas => canvas_receivers(record, summary),
+    }
 }
 
 /// What the student sees; Moodle keeps it, Canvas shows the name of what was handed in instead.
@@ -104,7 +120,10 @@ fn moodle_receivers(record: &Record, summary: &mut Summary) -> Vec<String> {
             .filter(|number| is_number(number));
         let said = handed_in.filter(|_| record.students.len() == 1);
         match (own, said) {
-            (Some(number), _) => receivers.push(name(&student.name, number)),
+            (Some(number), _) => {
+                let row = student.roster.as_deref().map_or("", |row| row.name.as_str());
+                receivers.push(name(if row.is_empty() { &student.name } else { row }, number));
+            }
             (None, Some((said, number))) => {
                 receivers.push(name(said.owner.as_deref().unwrap_or("Participant"), number));
             }
@@ -223,8 +242,9 @@ mod tests {
             std::fs::write(path, format!("<!doctype html><p>{}{end}", record.submission)).unwrap();
         }
         let mut bytes = Cursor::new(Vec::new());
-        let records = records.into_iter().map(Ok);
-        let summary = write_feedback(records, out.path(), lms, &Rules::default(), &mut bytes).unwrap();
+        let lines: String = records.iter().map(|record| record.to_line().unwrap() + "\n").collect();
+        std::fs::write(out.path().join("results.jsonl"), lines).unwrap();
+        let summary = write_feedback(out.path(), lms, &Rules::default(), &mut bytes).unwrap();
         let mut zip = zip::ZipArchive::new(Cursor::new(bytes.get_ref().clone())).unwrap();
         let found: Vec<String> =
             (0..zip.len()).map(|at| zip.by_index(at).unwrap().name().unwrap().into_owned()).collect();
@@ -317,7 +337,11 @@ mod tests {
         hidden.handed_in = handed_in(Lms::Canvas, "", "17", Some(1));
         let mut typed = record("EE-003", "Eve");
         typed.handed_in = handed_in(Lms::Canvas, "eve", "18", None);
-        check("canvas", FeedbackFor::Canvas, vec![jane, hidden, typed], &["doejane_12_345_report.html"], 2);
+        let name = "doejane_12_345_report.html";
+        check("canvas", FeedbackFor::Canvas, vec![jane.clone(), hidden, typed], &[name], 2);
+        let mut other_member = record("EE-004", "Max");
+        other_member.handed_in = jane.handed_in.clone();
+        check("members with reports of their own", FeedbackFor::Canvas, vec![jane, other_member], &[], 2);
     }
 
     #[test]

@@ -36,6 +36,8 @@ pub enum Why {
     Formula,
     /// The file did not come from the LMS with its numbers in the name.
     NoLmsNumbers(&'static str),
+    /// Several reports have the same number, so everybody of the group would get the report of one.
+    SharedNumber,
     /// The report is not there, or not whole.
     NoReport,
 }
@@ -88,6 +90,10 @@ impl fmt::Display for Why {
             Self::NoIdentifier(what) => write!(f, "no {what} is known of them"),
             Self::Formula => write!(f, "a spreadsheet would run their identifier as a formula"),
             Self::NoLmsNumbers(what) => write!(f, "{what}"),
+            Self::SharedNumber => write!(
+                f,
+                "others have a report of their own under the same number of the LMS, which gives each to the whole group"
+            ),
             Self::NoReport => write!(f, "the report is not there, or not whole"),
         }
     }

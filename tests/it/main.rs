@@ -9,6 +9,7 @@ mod class_marks;
 mod cli;
 mod conflicts;
 mod ctms;
+mod exports;
 mod hard_polynomials;
 mod hard_responses;
 mod hard_table;
