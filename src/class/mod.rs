@@ -35,5 +35,4 @@ pub use record::{FindingRecord, HOLDS, ItemRecord, Record, ReviewRecord, Status,
 pub(crate) use roster::name_words;
 pub use roster::{Roster, RosterError, RosterStudent};
 pub use run::{ClassError, ClassJob, Progress, grade_class};
-pub use without_marks::ids_given_twice;
 pub use workplace::is_unfinished;

@@ -38,19 +38,3 @@ pub fn superseded_records<'a>(job: &'a ClassJob<'_>) -> impl Iterator<Item = Rec
         Record::superseded(one, by, &submission, job.roster, job.lab)
     })
 }
-
-/// Folded ids that several records which count give: no mark of theirs may be passed on before a person has said which counts.
-///
-/// Only the later of such records say so themselves.
-pub fn ids_given_twice<'a>(records: impl IntoIterator<Item = &'a Record>) -> BTreeSet<String> {
-    let (mut seen, mut twice) = (BTreeSet::new(), BTreeSet::new());
-    for record in records.into_iter().filter(|record| record.counts()) {
-        for student in &record.students {
-            let id = folded_id(&student.id);
-            if !seen.insert(id.clone()) {
-                twice.insert(id);
-            }
-        }
-    }
-    twice
-}
