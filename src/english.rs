@@ -15,6 +15,11 @@ pub(crate) fn listed(parts: &[String], word: &str) -> String {
     }
 }
 
+/// `1 point`, `0.5 points`.
+pub(crate) fn points(points: crate::lab::Points) -> String {
+    format!("{points} {}", if points.0.abs() == 100 { "point" } else { "points" })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -42,6 +42,8 @@ pub enum Found {
         submission: Box<Submission>,
         numbers: Numbers,
     },
+    /// A person said that another file counts for its student: its record.
+    Discounted(Box<Record>),
 }
 
 /// What is known of an answer file, all its parts together.
@@ -96,6 +98,7 @@ impl Desk<'_> {
         let run = run.clone().with(&file.name).with(&file.id).with([u8::from(file.followed)]);
         let run =
             run.with_shown(&file.handed_in).with_shown(&file.only_others).with_shown(&file.beside_others);
+        let run = run.with_shown(&self.job.marks.and_then(|marks| marks.whose(&file.name)));
         match content {
             Ok(bytes) => run.with(bytes),
             Err(why) => run.with("not read").with(why.to_string()),
@@ -151,6 +154,13 @@ impl Desk<'_> {
             marks: self.marks(students.iter().map(String::as_str)),
             students,
         });
+        let submission = match self.that_count(submission, file) {
+            Ok(submission) => submission,
+            Err(record) => {
+                let found = Found::Discounted(record);
+                return vec![Part { id: file.id.clone(), students: Vec::new(), found, source, number: 0 }];
+            }
+        };
         let alone = by_hand_marks(submission, self.job.marks);
         let parts = alone.into_iter().enumerate().map(|(number, submission)| Part {
             id: submission.id.clone(),
@@ -162,13 +172,45 @@ impl Desk<'_> {
         parts.collect()
     }
 
+    /// The submission with those of its students for whom a person has not said that another file of the class counts; its
+    /// record, not counting, when that leaves nobody.
+    fn that_count(&self, mut submission: Submission, file: &AnswerFile) -> Result<Submission, Box<Record>> {
+        let mut other = None;
+        let mut settled = false;
+        let everybody = submission.students.clone();
+        submission.students.retain(|student| {
+            let Some(counting) = self.counting(&student.id) else { return true };
+            settled = true;
+            let own = counting.name == file.name;
+            other = Some(counting).filter(|_| !own).or(other);
+            own
+        });
+        if settled {
+            submission.findings.retain(|finding| finding.code != "intake.several_files");
+        }
+        match other {
+            Some(other) if submission.students.is_empty() => {
+                submission.students = everybody;
+                let by = (other.id.as_str(), other.name.as_str());
+                Err(Box::new(Record::not_counting(&submission, file, by, self.job.roster, self.job.lab)))
+            }
+            _ => Ok(submission),
+        }
+    }
+
+    /// The file of the class of which a person has said that it counts for a student.
+    fn counting(&self, id: &str) -> Option<&AnswerFile> {
+        let name = self.job.marks?.counts_for(id)?;
+        self.job.intake.files.iter().find(|one| one.name == name)
+    }
+
     /// Fingerprint of what a person gave these students, decisions for groups of like answers aside.
     fn marks<'s>(&self, students: impl Iterator<Item = &'s str>) -> String {
         let Some(file) = self.job.marks else { return String::new() };
-        let given = students.map(|id| file.marks_for(id));
-        given
-            .fold(Fingerprint::default(), |all, marks| {
-                all.with_shown(&marks.cover).with_shown(&marks.observed).with_shown(&marks.items)
+        let all = Fingerprint::default();
+        students
+            .fold(all, |all, id| {
+                all.with(file.marks_for(id).shown()).with_shown(&self.counting(id).map(|one| &one.name))
             })
             .hex()
     }
@@ -183,7 +225,8 @@ impl Desk<'_> {
         let lab = self.job.lab;
         let read = |sheet: &AnswerSheet| {
             let mut submission = file.read_from(content, sheet, attachments);
-            settle_people(&mut submission, file, sheet, self.job.roster);
+            let whose = self.job.marks.and_then(|marks| marks.whose(&file.name));
+            settle_people(&mut submission, file, sheet, self.job.roster, whose);
             submission
         };
         let mut submission = read(&lab.sheet);
@@ -218,7 +261,7 @@ impl Desk<'_> {
         let bench = numbers.variant().map(|variant| self.benches.get(variant));
         let bench = bench.as_deref();
         let marking = AssertUnwindSafe(|| self.marked(&numbers, bench, &submission, marks));
-        let scorecard = match catch_unwind(marking) {
+        let mut scorecard = match catch_unwind(marking) {
             Ok(Ok(card)) if !failed => card,
             Ok(Err(finding)) if !failed => {
                 let message = finding.message.clone();
@@ -235,6 +278,11 @@ impl Desk<'_> {
                 leave_to_a_person(job.lab, &submission, marks, &our_failure().message)
             }
         };
+        let late = file.handed_in.late;
+        let adjustments =
+            marks.map_or_else(Vec::new, |hand| hand.adjustments_of(scorecard.cover_total, late));
+        scorecard.adjust(adjustments, job.lab.cover.total);
+        submission.findings.extend(scorecard.decided_for_other_answers());
         let kit = match (&numbers, bench) {
             (Numbers::Lab, _) => job.kit,
             (_, Some(Ok(bench))) => &bench.kit,

@@ -1,4 +1,4 @@
-use super::record::{BoxRecord, Record, StudentRecord};
+use super::record::{AdjustmentRecord, BoxRecord, Record, StudentRecord};
 use crate::lab::{LabDefinition, Points};
 use std::io::Write;
 
@@ -41,6 +41,7 @@ fn columns(
     names.extend(observed.iter().map(|(id, points)| format!("observed.{id} [{points}]")));
     names.extend(cover.iter().map(|(id, points)| format!("cover.{id} [{points}]")));
     names.push(format!("cover.total [{total}]"));
+    names.extend(["adjustments".to_owned(), "adjusted_for".to_owned(), format!("mark [{total}]")]);
     names.extend(["to_review", "findings", "status", "late", "report"].map(str::to_owned));
     names
 }
@@ -59,6 +60,12 @@ pub fn gradebook_row(record: &Record, student: &StudentRecord) -> Vec<GradebookC
     row.extend(record.questions.iter().map(|one| Points(Some(one.tally.earned))));
     row.extend(record.observed.iter().chain(&record.cover).map(|one| Points(one.earned)));
     row.push(Points(record.cover_total));
+    row.push(Points(match record.adjustments.as_slice() {
+        [] => None,
+        some => some.iter().map(|one| one.points).sum(),
+    }));
+    row.push(Text(reasons(record)));
+    row.push(Points(record.mark.map(|mark| mark.earned)));
     row.push(Count(record.to_review().count()));
     row.push(Count(record.findings.len()));
     row.push(Text(record.status.as_str().to_owned()));
@@ -100,6 +107,15 @@ impl<W: Write> Gradebook<W> {
     pub fn finish(mut self) -> Result<(), std::io::Error> {
         self.writer.flush()
     }
+}
+
+/// `-5: handed in late; 2: helped others`.
+fn reasons(record: &Record) -> String {
+    let one = |one: &AdjustmentRecord| {
+        let points = one.points.map_or_else(|| "?".to_owned(), |points| points.to_string());
+        format!("{}: {}", points, one.reason)
+    };
+    record.adjustments.iter().map(one).collect::<Vec<_>>().join("; ")
 }
 
 /// Spreadsheets run what begins with `=`, `+`, `-`, `@`, a tab or a line end: an apostrophe makes it text. Control

@@ -31,7 +31,9 @@ pub(crate) use new_file::NewFile;
 pub use numbers::read_with_own_values;
 pub use others::OtherVariant;
 pub use outcome::Outcome;
-pub use record::{FindingRecord, HOLDS, ItemRecord, Record, ReviewRecord, Status, StudentRecord};
+pub use record::{
+    AdjustmentRecord, FindingRecord, HOLDS, ItemRecord, MarkRecord, Record, ReviewRecord, Status, StudentRecord,
+};
 pub(crate) use roster::name_words;
 pub use roster::{Roster, RosterError, RosterStudent};
 pub use run::{ClassError, ClassJob, Progress, grade_class};

@@ -23,6 +23,8 @@ pub struct Outcome {
     pub failed: usize,
     /// Submissions with something a person should look at.
     pub to_review: usize,
+    /// Submissions with a decision of a person about an answer that has changed since.
+    pub answers_changed: usize,
     pub mean_earned: f64,
     pub possible: f64,
     /// Ids in the marks file that nobody in the class has.

@@ -1,8 +1,10 @@
-use super::intake::{Superseded, handed_in, student_records};
+use super::intake::{AnswerFile, Superseded, handed_in, student_records};
 use super::{HandedIn, Marked, OtherVariant, Roster, RosterStudent};
-use crate::grading::{Cause, Conflict, Diagnosis, FollowThrough, ItemScore, Ledger, Tally, Verdict};
+use crate::grading::{
+    Adjustment, Cause, Conflict, Diagnosis, FollowThrough, ItemScore, Ledger, Tally, Verdict,
+};
 use crate::lab::{LabDefinition, Points};
-use crate::source::Position;
+use crate::source::{Finding, Position, sanitize};
 use crate::submission::Submission;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -47,6 +49,16 @@ pub struct Record {
     /// Sum of the cover sheet; null while a box is.
     #[serde(default, with = "points::optional")]
     pub cover_total: Option<Points>,
+    /// What changes that sum, and why; lateness first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub adjustments: Vec<AdjustmentRecord>,
+    /// What is to be passed on: the sum of the cover sheet with the adjustments, within its bounds; null while a part waits for a
+    /// person, and for an attempt that does not count.
+    #[serde(default)]
+    pub mark: Option<MarkRecord>,
+    /// By field, 16 hexadecimal digits that tell whether its answer is what it was; what is blank is absent.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub answers: BTreeMap<String, String>,
     pub ledger: LedgerRecord,
     pub findings: Vec<FindingRecord>,
     /// Relative to the output folder, percent-encoded.
@@ -148,6 +160,23 @@ pub struct BoxRecord {
     pub possible: Points,
 }
 
+/// Points given or taken beside the cover sheet.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct AdjustmentRecord {
+    /// Null while it is a part of a sum that waits for a person.
+    #[serde(with = "points::optional")]
+    pub points: Option<Points>,
+    pub reason: String,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct MarkRecord {
+    #[serde(with = "points")]
+    pub earned: Points,
+    #[serde(with = "points")]
+    pub possible: Points,
+}
+
 /// One criterion.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ItemRecord {
@@ -162,6 +191,9 @@ pub struct ItemRecord {
     pub provisional: bool,
     /// The group of like answers that one decision of a person can serve, or served.
     pub alike: Option<String>,
+    /// Tells whether the answer is what it was: of one field, that of [`Record::answers`]; absent where it is blank.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub answer: Option<String>,
     pub evidence: EvidenceRecord,
     pub line: Option<usize>,
     pub column: Option<usize>,
@@ -296,6 +328,9 @@ impl Record {
                 })
                 .collect(),
             cover_total: card.cover_total,
+            adjustments: card.adjustments.iter().map(AdjustmentRecord::of).collect(),
+            mark: card.mark.map(|earned| MarkRecord { earned, possible: lab.cover.total }),
+            answers: card.answers.clone(),
             ledger: LedgerRecord::of(&card.ledger),
             findings: submission
                 .findings
@@ -316,10 +351,35 @@ impl Record {
             roster: Some(Box::new(student.clone())),
             unknown: false,
         };
-        Self { status: Status::Missing, students: vec![person], ..Self::without_marks(lab) }
+        let mark = Some(MarkRecord { earned: Points::ZERO, possible: lab.cover.total });
+        Self { status: Status::Missing, students: vec![person], mark, ..Self::without_marks(lab) }
     }
 
-    /// Of an answer file that does not count. `by` is the name of the one that does.
+    /// Of an answer file of which a person said that another counts: `by`, with its name.
+    pub fn not_counting(
+        submission: &Submission,
+        file: &AnswerFile,
+        (by, by_name): (&str, &str),
+        roster: Option<&Roster>,
+        lab: &LabDefinition,
+    ) -> Self {
+        let message =
+            format!("A person said that `{}` counts for its student, not this file.", sanitize(by_name));
+        let one = Finding::note("marks.other_file_counts", message);
+        Self {
+            submission: file.id.clone(),
+            file: file.name.clone(),
+            status: Status::Superseded,
+            superseded_by: Some(by.to_owned()),
+            handed_in: handed_in(file, roster),
+            students: student_records(submission, roster),
+            findings: vec![FindingRecord::of(&one, None)],
+            readable: submission.readable,
+            ..Self::without_marks(lab)
+        }
+    }
+
+    /// Of an answer file in whose place its owner handed in another. `by` is the name of that one.
     pub fn superseded(
         one: &Superseded,
         by: &str,
@@ -362,6 +422,9 @@ impl Record {
             observed: lab.observed.iter().map(|row| empty(&row.id, row.points)).collect(),
             cover: lab.cover.rows.iter().map(|row| empty(&row.id, row.points)).collect(),
             cover_total: None,
+            adjustments: Vec::new(),
+            mark: None,
+            answers: BTreeMap::new(),
             ledger: LedgerRecord::default(),
             findings: Vec::new(),
             report: String::new(),
@@ -418,6 +481,12 @@ impl OtherVariantRecord {
     }
 }
 
+impl AdjustmentRecord {
+    fn of(adjustment: &Adjustment) -> Self {
+        Self { points: adjustment.points, reason: adjustment.reason.clone() }
+    }
+}
+
 impl TallyRecord {
     fn of(tally: &Tally) -> Self {
         Self { earned: tally.earned, possible: tally.possible, provisional: tally.provisional }
@@ -435,6 +504,7 @@ impl ItemRecord {
             code: item.code.to_owned(),
             provisional: item.provisional,
             alike: item.alike.clone(),
+            answer: item.answer.clone(),
             evidence: EvidenceRecord {
                 expected: item.evidence.expected.clone(),
                 found: item.evidence.found.clone(),
@@ -456,7 +526,14 @@ impl ReviewRecord {
         let field =
             criteria.into_iter().find(|criterion| criterion.id == item.id).map(|one| one.field.as_str());
         Self {
-            why: why(item).to_owned(),
+            why: match &item.held {
+                Some(held) => format!(
+                    "decided for another answer than the one that stands here now ({}: {})",
+                    crate::english::points(held.points),
+                    held.reason
+                ),
+                None => why(item).to_owned(),
+            },
             words: if item.evidence.phrases.is_empty() { String::new() } else { item.evidence.found.clone() },
             answer: field.map_or_else(String::new, |field| beginning(marked, field)),
         }
@@ -539,7 +616,7 @@ impl LedgerRecord {
 }
 
 impl FindingRecord {
-    fn of(finding: &crate::source::Finding, position: Option<Position>) -> Self {
+    fn of(finding: &Finding, position: Option<Position>) -> Self {
         Self {
             severity: finding.severity.word().to_owned(),
             code: finding.code.to_owned(),

@@ -106,6 +106,7 @@ pub fn grade_class(
         growing: workplace.running(),
     };
     let mut absentees = Absentees::default();
+    let mut discounted = Vec::new();
     let mut done = Progress { done: 0, kept: 0 };
 
     for first in (0..job.intake.files.len()).step_by(GROUP) {
@@ -116,6 +117,10 @@ pub fn grade_class(
         let mut slips = Vec::new();
         // Names and what is said of one beside others depend on who came before, so they are given in order.
         for part in parts {
+            if let Found::Discounted(record) = part.found {
+                discounted.push(*record);
+                continue;
+            }
             let file = job.intake.files.get(part.source.place).map_or("", |file| file.name.as_str());
             let findings = seen.add(&part.students, file);
             let report = format!("reports/{}.html", names.claim(&report_stem(&part)));
@@ -147,7 +152,7 @@ pub fn grade_class(
         }
     }
 
-    for record in superseded_records(job) {
+    for record in discounted.into_iter().chain(superseded_records(job)) {
         absentees.add(&record);
         records.add_unmarked(&record)?;
         statistics.add(&record);
@@ -166,6 +171,8 @@ pub fn grade_class(
     if let Some(marks) = job.marks {
         outcome.marks_without_submission = statistics.absent(marks.student_ids());
         outcome.decisions_without_answers = marks.decisions_without_answers(statistics.groups());
+        let names = job.intake.files.iter().map(|file| file.name.as_str()).collect();
+        outcome.decisions_without_answers.extend(marks.files_not_there(&names));
     }
     outcome.removed_reports = remove_old_reports(job.out, &desk.kept, &statistics);
     outcome.older_reports = older_reports(job.out, &statistics);
@@ -204,7 +211,7 @@ fn settle<'a>(
     let source = Arc::clone(&part.source);
     let holds = match &part.found {
         Found::Kept { part, .. } => part.said == said && part.report == report,
-        Found::Read { .. } => false,
+        Found::Read { .. } | Found::Discounted(_) => false,
     };
     let again = match part.found {
         Found::Kept { .. } if !holds => desk.look_again(&part).map(|part| part.found),
@@ -222,13 +229,15 @@ fn settle<'a>(
             }
             Slip { source, said, kept: None }
         }
+        // Dealt with before.
+        Found::Discounted(_) => Slip { source, said, kept: None },
     }
 }
 
 /// What the marks of all submissions rest on; `None` when nothing may be used again.
 fn rests_on(job: &ClassJob<'_>, others: &Others) -> Option<Fingerprint> {
     let lab = &job.lab.text;
-    let alike = job.marks.map(|marks| format!("{:?}", marks.marks_for("").alike));
+    let alike = job.marks.map(|marks| format!("{:?}", marks.alike()));
     let roster = format!("{:?}", job.roster);
     let class = others.fingerprint();
     run_fingerprint(&[&lab.name, &lab.text, &alike.unwrap_or_default(), &roster, &class])

@@ -72,6 +72,8 @@ impl Statistics {
         self.outcome.possible = record.total.possible.as_f64();
         self.outcome.unreadable += usize::from(!record.readable);
         self.outcome.failed += usize::from(record.failed);
+        let changed = record.findings.iter().any(|finding| finding.code == "marks.answer_changed");
+        self.outcome.answers_changed += usize::from(changed);
         let waiting = self.review.len();
         self.review.extend(review_entries(record, &self.titles));
         self.review.extend(other_variant_entries(record, &self.titles));

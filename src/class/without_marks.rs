@@ -34,7 +34,8 @@ pub fn superseded_records<'a>(job: &'a ClassJob<'_>) -> impl Iterator<Item = Rec
     job.intake.superseded.iter().map(move |one| {
         let by = names.get(one.by.as_str()).copied().unwrap_or(one.by.as_str());
         let mut submission = one.file.read(&job.lab.sheet);
-        settle_people(&mut submission, &one.file, &job.lab.sheet, job.roster);
+        let whose = job.marks.and_then(|marks| marks.whose(&one.file.name));
+        settle_people(&mut submission, &one.file, &job.lab.sheet, job.roster, whose);
         Record::superseded(one, by, &submission, job.roster, job.lab)
     })
 }

@@ -2,11 +2,11 @@ use super::outcome::{
     Failure, INTERRUPTED, OURS, THEIRS, colour_on_stderr, load_roster, load_with_reference,
 };
 use crate::class::{ClassJob, Outcome, find_answer_files, grade_class};
+use crate::grading::Catalogue;
 use crate::grading::HandMarksFile;
-use crate::grading::{Catalogue, HandMarks};
 use crate::lab::LabDefinition;
 use crate::report::ReportKit;
-use crate::source::{Severity, SourceText, sanitize};
+use crate::source::{Severity, SourceText, decode_within, sanitize};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -96,12 +96,17 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     })
 }
 
+/// A marks file of a class of thousands has its room in this.
+const MOST_BYTES_OF_MARKS: usize = 64 << 20;
+
 /// A marks file with an error in it would lose a person's mark: nothing is graded until it is mended.
 fn load_marks(path: &Path, lab: &LabDefinition) -> Result<(HandMarksFile, SourceText), Failure> {
-    let text =
-        std::fs::read_to_string(path).map_err(|error| Failure::Read { path: path.to_path_buf(), error })?;
+    let read = |error| Failure::Read { path: path.to_path_buf(), error };
+    let bytes = std::fs::read(path).map_err(read)?;
+    let text = decode_within(&bytes, MOST_BYTES_OF_MARKS)
+        .map_err(|error| read(std::io::Error::new(std::io::ErrorKind::InvalidData, error.to_string())))?;
     let source = SourceText::new(path.to_string_lossy(), text);
-    let (marks, findings) = HandMarks::parse(&source, lab);
+    let (marks, findings) = HandMarksFile::parse(&source, lab);
     let mut rendered = String::new();
     for finding in &findings {
         rendered.push_str(&finding.render(&source, colour_on_stderr()));
@@ -173,6 +178,11 @@ fn summary(outcome: &Outcome, out: &Path) -> String {
             outcome.to_review,
             "has marks for a person to confirm or to give",
             "have marks for a person to confirm or to give",
+        ),
+        (
+            outcome.answers_changed,
+            "has an answer that a person decided about before it changed: that decision does not count until it is confirmed",
+            "have answers that a person decided about before they changed: those decisions do not count until they are confirmed",
         ),
         (
             outcome.failed,

@@ -18,15 +18,18 @@ pub struct Rules {
 impl Rules {
     /// The mark of a record, not scaled, or why there is none to pass on.
     ///
-    /// It is the sum of the cover sheet. As it stands, an empty box counts for nothing.
+    /// It is the sum of the cover sheet with the adjustments. As it stands, an empty box counts for nothing.
     pub fn mark(&self, record: &Record) -> Result<Points, Why> {
         match Why::not_final(record) {
             Some(Why::HandedNothingIn) if self.zero_for_missing => Ok(Points::ZERO),
             Some(why @ (Why::Failed | Why::HandedNothingIn)) => Err(why),
             Some(why) if !self.as_it_stands => Err(why),
-            _ => Ok(record
-                .cover_total
-                .unwrap_or_else(|| record.cover.iter().filter_map(|one| one.earned).sum())),
+            _ => {
+                let boxes = || record.cover.iter().filter_map(|one| one.earned).sum();
+                let adjustments: Points = record.adjustments.iter().filter_map(|one| one.points).sum();
+                let sum = record.cover_total.unwrap_or_else(boxes) + adjustments;
+                Ok(sum.clamp(Points::ZERO, out_of(record).max(Points::ZERO)))
+            }
         }
     }
 }

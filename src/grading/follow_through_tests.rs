@@ -405,7 +405,7 @@ fn the_same_mistake_is_charged_once() {
 fn a_person_has_the_last_word() {
     let answers = hanging(GRAVITY, &[("shape", "exponential growth"), ("stability", "marginally stable")]);
     let given = |id: &str, points| {
-        let given = Override { points: Points(points), reason: "seen".to_owned() };
+        let given = Override { points: Points(points), reason: "seen".to_owned(), answers: Vec::new() };
         HandMarks { items: [(id.to_owned(), given)].into(), ..HandMarks::default() }
     };
     // What a person takes is theirs to explain.

@@ -6,7 +6,7 @@ use super::plot::{Demands, Target};
 use super::same_mistake::spare;
 use super::truth::Truth;
 use super::{
-    Catalogue, HandMarks, ItemScore, Ledger, Override, QuestionScore, Scorecard, Tally, Verdict, alike,
+    Catalogue, Given, HandMarks, ItemScore, Ledger, QuestionScore, Scorecard, Tally, Verdict, alike,
     concepts, cover, in_doubt, letters, nonlinearity, plot, poles, shape, stability, tangent,
     transfer_function, value,
 };
@@ -14,8 +14,9 @@ use crate::lab::{Check, Criterion, Curve, LabDefinition, Question, SystemRef};
 use crate::model::LetterDerivation;
 use crate::reference::{Reference, ResponseReference};
 use crate::submission::{
-    Answer, AnswerSheet, AnswerValue, AnsweredIn, Figure, Series, Submission, Unreadable,
+    Answer, AnswerSheet, AnswerValue, AnsweredIn, Figure, Series, Submission, Unreadable, hash_of_fields,
 };
+use std::collections::BTreeMap;
 
 /// Every mark of one submission, with its evidence, and with `catalogue` what may explain a wrong transfer function.
 ///
@@ -36,7 +37,14 @@ pub fn grade(
 pub(super) fn marks(lab: &LabDefinition, grader: &Grader<'_>, hand: Option<&HandMarks>) -> Vec<Vec<Mark>> {
     let mut marks: Vec<Vec<Mark>> = lab.questions.iter().map(|asked| grader.question(asked)).collect();
     let earned = |criterion: &Criterion, mark: &Mark| {
-        given(criterion, None, hand).map_or(mark.earned, |given| given.points)
+        let answer = || {
+            let fields = criterion.fields();
+            let hash =
+                |field: &&str| Some(((*field).to_owned(), grader.submission.answers.get(*field)?.hash()));
+            hash_of_fields(&fields.iter().filter_map(hash).collect(), &fields)
+        };
+        let given = hand.and_then(|hand| hand.given(&criterion.id, criterion.points, None, &answer));
+        given.and_then(Given::applied).map_or(mark.earned, |given| given.points)
     };
     spare(lab, grader, &earned, &mut marks);
     follow(lab, grader, &earned, &mut marks);
@@ -65,6 +73,7 @@ pub(super) fn scorecard(
     marks: Vec<Vec<Mark>>,
 ) -> Scorecard {
     let mut ledger = Ledger::default();
+    let answers = submission.answer_hashes();
     let questions: Vec<QuestionScore> = lab
         .questions
         .iter()
@@ -75,7 +84,7 @@ pub(super) fn scorecard(
                 .iter()
                 .zip(marks)
                 .map(|(criterion, mark)| {
-                    let item = item_score(criterion, mark.clone(), submission, hand);
+                    let item = item_score(criterion, mark.clone(), submission, &answers, hand);
                     ledger.enter(&item, &mark);
                     item
                 })
@@ -90,20 +99,39 @@ pub(super) fn scorecard(
     let observed = cover::observed(&lab.observed, hand);
     let parts = cover::Parts::new(total, unmarked, &lab.observed, &observed);
     let boxes = cover::boxes(&lab.cover, &parts, hand);
-    Scorecard { questions, total, observed, cover_total: cover::total(&boxes), cover: boxes, ledger }
+    let mut card = Scorecard {
+        questions,
+        total,
+        observed,
+        cover_total: cover::total(&boxes),
+        cover: boxes,
+        ledger,
+        answers,
+        adjustments: Vec::new(),
+        mark: None,
+    };
+    let adjustments = hand.map_or_else(Vec::new, |hand| hand.adjustments_of(card.cover_total, false));
+    card.adjust(adjustments, lab.cover.total);
+    card
 }
 
 fn item_score(
     criterion: &Criterion,
     mark: Mark,
     submission: &Submission,
+    answers: &BTreeMap<String, String>,
     hand: Option<&HandMarks>,
 ) -> ItemScore {
     let mark = Mark { alike: alike::group(criterion, &mark, submission), ..mark };
-    let given = given(criterion, mark.alike.as_deref(), hand);
-    let mark = match given {
-        Some(given) => Mark { follow_through: None, ..given.apply(criterion.points, mark) },
-        None => mark,
+    let answer = hash_of_fields(answers, &criterion.fields());
+    let of_answer = || answer.clone();
+    let given =
+        hand.and_then(|hand| hand.given(&criterion.id, criterion.points, mark.alike.as_deref(), &of_answer));
+    let (applied, held) = (given.and_then(Given::applied), given.and_then(Given::held));
+    let mark = match (applied, held) {
+        (Some(given), _) => Mark { follow_through: None, ..given.apply(criterion.points, mark) },
+        (None, Some(_)) => Mark { provisional: true, ..mark },
+        (None, None) => mark,
     };
     ItemScore {
         id: criterion.id.clone(),
@@ -117,18 +145,11 @@ fn item_score(
         follow_through: mark.follow_through,
         alike: mark.alike,
         provisional: mark.provisional,
-        override_reason: given.map(|given| given.reason.clone()),
+        override_reason: applied.map(|given| given.reason.clone()),
+        answer,
+        held: held.cloned(),
         position: position(criterion, submission),
     }
-}
-
-/// What a person gave in place of our mark.
-fn given<'a>(
-    criterion: &Criterion,
-    alike: Option<&str>,
-    hand: Option<&'a HandMarks>,
-) -> Option<&'a Override> {
-    hand?.given(&criterion.id, criterion.points, alike)
 }
 
 /// Where the answer stands: for a plot, its data before its figure.
@@ -440,6 +461,7 @@ fn unreadable_file(expected: String, submission: &Submission) -> Mark {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::grading::Override;
     use crate::lab::{self, CoverSource, Points};
     use crate::submission::{NoFiles, read};
     use std::sync::OnceLock;
@@ -483,7 +505,8 @@ mod tests {
     /// When polemark fails on a submission, what a person gave must not be lost with it.
     #[test]
     fn what_is_left_to_a_person_keeps_the_marks_they_gave() {
-        let given = Override { points: Points(100), reason: "marked on paper".to_owned() };
+        let given =
+            Override { points: Points(100), reason: "marked on paper".to_owned(), answers: Vec::new() };
         let hand = HandMarks {
             cover: [("viva".to_owned(), Points(3000))].into(),
             items: [("speaker.nonlinearity.class".to_owned(), given)].into(),
@@ -595,7 +618,11 @@ mod tests {
     #[test]
     fn a_person_has_the_last_word_and_fills_the_sheet() {
         let (lab, _) = lab();
-        let given = |points| Override { points: Points(points), reason: "seen in the lab".into() };
+        let given = |points| Override {
+            points: Points(points),
+            reason: "seen in the lab".into(),
+            answers: Vec::new(),
+        };
         let hand = HandMarks {
             cover: lab
                 .cover

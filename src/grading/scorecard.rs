@@ -1,6 +1,7 @@
-use super::{Diagnosis, FollowThrough, Ledger};
+use super::{Adjustment, Diagnosis, FollowThrough, Ledger, Override};
 use crate::lab::Points;
-use crate::source::{Position, Span};
+use crate::source::{Finding, Position, Span, sanitize};
+use std::collections::BTreeMap;
 use std::ops::Add;
 
 /// What became of one criterion.
@@ -44,6 +45,31 @@ pub struct Scorecard {
     pub cover_total: Option<Points>,
     /// Where each point of `total` was lost, and what was not charged twice.
     pub ledger: Ledger,
+    /// The hash of every answer, by field.
+    pub answers: BTreeMap<String, String>,
+    /// What changes the sum of the cover sheet.
+    pub adjustments: Vec<Adjustment>,
+    /// The sum of the cover sheet with the adjustments; `None` while a part waits for a person.
+    pub mark: Option<Points>,
+}
+
+impl Scorecard {
+    /// A finding for each decision of a person that was made for another answer than the one that stands there now.
+    pub fn decided_for_other_answers(&self) -> impl Iterator<Item = Finding> + '_ {
+        let items = self.questions.iter().flat_map(|question| &question.items);
+        items.filter_map(|item| {
+            let Override { points, reason, .. } = item.held.as_ref()?;
+            let message = format!(
+                "A person gave `{}` {} ({}) for another answer than the one that stands here now. That does not count until a person has \
+                 looked again; until then polemark's own mark stands, {}.",
+                item.id,
+                crate::english::points(*points),
+                sanitize(reason),
+                crate::english::points(item.earned)
+            );
+            Some(Finding::warning("marks.answer_changed", message))
+        })
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -104,6 +130,10 @@ pub struct ItemScore {
     pub provisional: bool,
     /// A person changed the mark: their reason.
     pub override_reason: Option<String>,
+    /// The hash of what is judged; `None` when it is blank.
+    pub answer: Option<String>,
+    /// What a person decided when another answer stood here: it does not count.
+    pub held: Option<Override>,
     /// Where the answer stands in the file.
     pub position: Option<Position>,
 }

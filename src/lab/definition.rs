@@ -180,6 +180,17 @@ pub struct Criterion {
     pub span: Span,
 }
 
+impl Criterion {
+    /// Every answer field that its mark may rest on: of a plot, the figure and its data.
+    pub fn fields(&self) -> Vec<&str> {
+        let data = match &self.check {
+            Check::Plot { data, .. } => data.as_deref(),
+            _ => None,
+        };
+        [Some(self.field.as_str()), data.filter(|data| *data != self.field)].into_iter().flatten().collect()
+    }
+}
+
 /// Which model at which operating point.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct SystemRef {

@@ -10,7 +10,7 @@ use super::view::{
     OutcomeView, TallyView, VerdictView,
 };
 use super::{conflicts, items, opening};
-use crate::grading::{Scorecard, Tally};
+use crate::grading::{Adjustment, Scorecard, Tally};
 use crate::lab::{LabDefinition, ObservedRow, Points, Question};
 use crate::source::{Finding, SourceText, sanitize};
 use crate::submission::{AnswerValue, AnsweredIn, Submission};
@@ -24,6 +24,10 @@ pub struct StudentPage {
     students: Vec<StudentView>,
     file: String,
     cover: Vec<BoxView>,
+    /// What changes the sum of the boxes, and why.
+    adjustments: Vec<AdjustmentView>,
+    /// The sum with the adjustments, where there are any.
+    mark: Option<BoxView>,
     /// The student's own values, in a lab where they differ from student to student; empty otherwise.
     given: Vec<GivenView>,
     given_words: String,
@@ -78,6 +82,13 @@ pub fn page(kit: &ReportKit, submission: &Submission, scorecard: &Scorecard) -> 
         lab_title: lab.title.clone(),
         file: sanitize(&submission.source.name),
         cover: cover(lab, scorecard),
+        adjustments: scorecard.adjustments.iter().map(adjustment).collect(),
+        mark: (!scorecard.adjustments.is_empty()).then(|| BoxView {
+            title: "Mark".to_owned(),
+            earned: scorecard.mark.map(|points| points.to_string()),
+            possible: lab.cover.total.to_string(),
+            waiting: WAITING,
+        }),
         given: given::own(lab),
         given_words: given_words(submission),
         findings_intro: if submission.readable {
@@ -130,8 +141,24 @@ fn students(submission: &Submission) -> Vec<StudentView> {
     students.map(|s| view(sanitize(&shown(&s.id)), sanitize(&shown(&s.name)))).collect()
 }
 
+const WAITING: &str = "waiting for a person";
+
+#[derive(Serialize)]
+struct AdjustmentView {
+    points: String,
+    reason: String,
+}
+
+fn adjustment(one: &Adjustment) -> AdjustmentView {
+    AdjustmentView {
+        // A minus sign as in print.
+        points: one.points.map_or_else(|| WAITING.to_owned(), |points| points.to_string().replace('-', "−")),
+        reason: sanitize(&one.reason),
+    }
+}
+
 fn cover(lab: &LabDefinition, scorecard: &Scorecard) -> Vec<BoxView> {
-    let waiting = "waiting for a person";
+    let waiting = WAITING;
     let title = |id: &str| {
         lab.cover.rows.iter().find(|row| row.id == id).map_or_else(|| id.to_owned(), |row| row.title.clone())
     };
@@ -284,7 +311,7 @@ fn observed(row: &ObservedRow, scorecard: &Scorecard) -> ObservedView {
             })
             .collect(),
         earned: earned.map(|p| p.to_string()),
-        waiting: "waiting for a person",
+        waiting: WAITING,
         possible: row.points.to_string(),
     }
 }

@@ -149,7 +149,15 @@ fn snap(source: &str, span: Span) -> Span {
 ///
 /// An empty document is [`Value::Null`]. Refused: keys given twice, merge keys (`<<`), a second document.
 pub fn parse(text: &str) -> Result<Node, YamlError> {
-    let tree = parse_with_duplicates(text)?;
+    without_duplicates(parse_with_duplicates(text)?)
+}
+
+/// Like [`parse`], for a file about a whole class: a hundred times as long.
+pub fn parse_of_class(text: &str) -> Result<Node, YamlError> {
+    without_duplicates(parse_within(text, 100)?)
+}
+
+fn without_duplicates(tree: Node) -> Result<Node, YamlError> {
     match first_duplicate(&tree) {
         Some((key, span)) => Err(YamlError {
             message: format!("the key `{}` is given twice", sanitize(key)),
@@ -162,13 +170,18 @@ pub fn parse(text: &str) -> Result<Node, YamlError> {
 
 /// Like [`parse`], but a key given twice stays in the tree twice, for the caller to judge.
 pub fn parse_with_duplicates(text: &str) -> Result<Node, YamlError> {
+    parse_within(text, 1)
+}
+
+/// Within so many times the usual limits.
+fn parse_within(text: &str, times: usize) -> Result<Node, YamlError> {
     let start = if text.starts_with('\u{feff}') { 3 } else { 0 };
     let body = &text[start..];
     if body.lines().all(|line| line.trim().is_empty() || line.trim_start().starts_with('#')) {
         return Ok(Node { value: Value::Null, span: Span { start, end: start } });
     }
     let shifted = |span: Span| Span { start: span.start + start, end: span.end + start };
-    serde_yaml::from_str_with_options::<Spanned<Raw>>(body, options())
+    serde_yaml::from_str_with_options::<Spanned<Raw>>(body, options(times))
         .map(|raw| raw.into_node(body))
         .map(|node| if start == 0 { node } else { node.shift(start) })
         .map_err(|error| {
@@ -177,14 +190,14 @@ pub fn parse_with_duplicates(text: &str) -> Result<Node, YamlError> {
         })
 }
 
-fn options() -> serde_yaml::Options {
+fn options(times: usize) -> serde_yaml::Options {
     serde_yaml::options! {
         budget: serde_yaml::budget! {
             max_depth: 24,
             flow_nesting_limit: 16,
-            max_nodes: 20_000,
-            max_events: 60_000,
-            max_total_scalar_bytes: 1_000_000,
+            max_nodes: 20_000 * times,
+            max_events: 60_000 * times,
+            max_total_scalar_bytes: 1_000_000 * times,
             max_aliases: 100,
             max_anchors: 100,
             max_documents: 1,

@@ -1,6 +1,7 @@
 //! What was answered: an answer file read into values and findings. Knows no lab and no right answer.
 
 mod answer;
+mod answer_hash;
 mod attachments;
 mod beside;
 mod beyond_formula;
@@ -43,6 +44,7 @@ pub(crate) fn read_formula(text: &str) -> Option<TypedFormula> {
 pub use answer::{
     Answer, AnswerValue, Decimal, Figure, FinalValue, Series, Student, Submission, TypedComplex, Unreadable,
 };
+pub use answer_hash::hash_of_fields;
 pub use attachments::{AttachmentError, Attachments, Folder, MAX_ATTACHMENT_BYTES, NoFiles, plain_path};
 pub use own_claims::{ContradictedClaim, claims_about, contradicted_claims};
 pub use read::{MAX_PROSE_BYTES, read};

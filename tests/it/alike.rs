@@ -1,6 +1,6 @@
 //! Like answers: which are together, and what one decision does for them.
 
-use polemark::grading::{self, Catalogue, HandMarks, ItemScore};
+use polemark::grading::{self, Catalogue, HandMarksFile, ItemScore};
 use polemark::lab::{self, LabDefinition, Points};
 use polemark::reference::Reference;
 use polemark::source::SourceText;
@@ -24,7 +24,7 @@ fn item(file: &str, answers: &str, criterion: &str, marks: &str) -> ItemScore {
     let text = format!("lab: ee361-lab3\nstudent: {{id: EE-1, name: A}}\nanswers:\n{answers}");
     let submission = submission::read(file, &format!("{file}.yaml"), text.as_bytes(), &lab.sheet, &NoFiles);
     assert_eq!(submission.findings, [], "{answers}");
-    let (by_hand, findings) = HandMarks::parse(&SourceText::new("marks.yaml", marks), lab);
+    let (by_hand, findings) = HandMarksFile::parse(&SourceText::new("marks.yaml", marks), lab);
     assert_eq!(findings, [], "{marks}");
     let hand = Some(by_hand.marks_for("EE-1"));
     let card = grading::grade(lab, reference, &Catalogue::default(), &submission, hand);

@@ -4,6 +4,7 @@ mod again;
 mod alike;
 mod authoring;
 mod bench;
+mod by_hand;
 mod claims;
 mod class_marks;
 mod cli;

@@ -13,15 +13,20 @@ const MOST_MEMBERS: usize = 20;
 
 /// Gives `submission` the students that it does not name itself, and says where file, LMS, roster and lab disagree.
 ///
-/// What the file says stands: nobody's mark goes to somebody else because of the name of a folder.
+/// What the file says stands: nobody's mark goes to somebody else because of the name of a folder. Only what a person has `said`,
+/// ids of students, comes before it, and is asked no more.
 pub fn settle_people(
     submission: &mut Submission,
     file: &AnswerFile,
     sheet: &AnswerSheet,
     roster: Option<&Roster>,
+    said: Option<&[String]>,
 ) {
     submission.findings.extend(other_lab(submission, sheet));
     submission.findings.extend(several_files(file));
+    if let Some(said) = said {
+        return name_as_said(submission, said, roster);
+    }
     let handed_in = &file.handed_in;
     let owner = Owner::of(handed_in, roster);
     if names_nobody(submission) {
@@ -75,6 +80,26 @@ pub fn settle_people(
         Owner::Student(_) | Owner::Nobody => {}
     }
     submission.findings.extend(findings);
+}
+
+/// A person said whose it is: nothing is left to ask.
+fn name_as_said(submission: &mut Submission, said: &[String], roster: Option<&Roster>) {
+    let student = |id: &String| match roster.and_then(|roster| roster.find(id)) {
+        Some(row) => Student { id: row.id.clone(), name: row.name.clone() },
+        None => {
+            let own = submission.students.iter().find(|one| one.id == *id).or(match said {
+                [_] => submission.students.first(),
+                _ => None,
+            });
+            Student { id: id.clone(), name: own.map_or_else(String::new, |one| one.name.clone()) }
+        }
+    };
+    let students: Vec<Student> = said.iter().take(MOST_MEMBERS).map(student).collect();
+    submission.students = students;
+    submission.findings.retain(|finding| !matches!(finding.code, "student.missing" | "student.id_missing"));
+    let ids: Vec<String> = said.iter().take(MOST_MEMBERS).map(|id| quoted(id)).collect();
+    let message = format!("A person said that this is the work of {}.", listed(&ids, "and"));
+    submission.findings.push(finding(Severity::Note, "marks.whose", message));
 }
 
 /// The students of a submission for its record.

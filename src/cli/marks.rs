@@ -1,0 +1,76 @@
+use super::outcome::{Failure, write_output};
+use crate::class::{MarksStub, Record, RunFacts, appended, is_unfinished};
+use crate::source::sanitize;
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Write down what still waits for a person, as a marks file to be filled in.
+#[derive(clap::Args)]
+#[command(
+    after_long_help = "Examples:\n  polemark marks out --out marks.yaml\n  polemark marks out --out marks.csv\n  polemark grade submissions --out out --marks marks.yaml\n\nA YAML file is only written where there is none. To a CSV file the rows are added that are not there; nothing in it is ever changed."
+)]
+pub struct Arguments {
+    /// Output folder of `grade`.
+    #[arg(value_name = "OUT")]
+    folder: PathBuf,
+    /// Marks file, .yaml or .csv; without it YAML is printed.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    let stub = stub(&arguments.folder)?;
+    if stub.is_empty() {
+        eprintln!("{}", stub.in_short());
+        return Ok(ExitCode::SUCCESS);
+    }
+    let Some(path) = &arguments.out else {
+        write_output(None, &stub.to_yaml())?;
+        return Ok(ExitCode::SUCCESS);
+    };
+    let written = |error| Failure::Write { path: path.clone(), error };
+    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")) {
+        let before = match std::fs::read(path) {
+            Ok(bytes) => bytes,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
+            Err(error) => return Err(Failure::Read { path: path.clone(), error }),
+        };
+        let (bytes, added) = appended(&before, &stub)
+            .map_err(|error| written(io::Error::new(io::ErrorKind::InvalidData, error.to_string())))?;
+        // What is there is not touched: only what comes after it is written.
+        if let Some(more) = bytes.get(before.len()..).filter(|more| !more.is_empty() && added > 0) {
+            let file = std::fs::OpenOptions::new().create(true).append(true).open(path);
+            file.and_then(|mut file| file.write_all(more)).map_err(written)?;
+        }
+        eprintln!("{}: {added} rows added; {}", sanitize(&path.to_string_lossy()), stub.in_short());
+    } else {
+        let new = File::create_new(path);
+        new.and_then(|mut file| file.write_all(stub.to_yaml().as_bytes())).map_err(|error| match error.kind() {
+            io::ErrorKind::AlreadyExists => Failure::Exists { path: path.clone() },
+            _ => written(error),
+        })?;
+        eprintln!("{}: {}", sanitize(&path.to_string_lossy()), stub.in_short());
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// What waits in an output folder.
+fn stub(folder: &Path) -> Result<MarksStub, Failure> {
+    if is_unfinished(folder) {
+        return Err(Failure::Unfinished { path: folder.to_path_buf() });
+    }
+    let results = folder.join("results.jsonl");
+    let read = |error| Failure::Read { path: results.clone(), error };
+    let file = BufReader::new(File::open(&results).map_err(read)?);
+    let facts = RunFacts::beside(&results).ok_or_else(|| Failure::Read {
+        path: folder.join("run.json"),
+        error: io::Error::new(io::ErrorKind::InvalidData, "run `polemark grade` again, which writes it"),
+    })?;
+    let mut stub = MarksStub::new(facts.lab);
+    for line in file.lines() {
+        stub.add(&Record::from_line(&line.map_err(read)?)?);
+    }
+    Ok(stub)
+}

@@ -1,0 +1,181 @@
+//! What a person gives: read from a marks file, YAML or CSV. Nothing of it is ever written by polemark.
+
+mod adjustment;
+mod allowed;
+mod decision;
+mod table;
+#[cfg(test)]
+mod tests;
+mod yaml;
+
+pub use adjustment::{Adjustment, LateCost, LateRule};
+pub use decision::{Given, NO_ANSWER, Override};
+pub use table::separator;
+
+use crate::lab::{LabDefinition, Points, folded_id};
+use crate::names::nearest;
+use crate::source::{Finding, SourceText, Span, sanitize};
+use allowed::Allowed;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// A person's decisions for groups of like answers: by criterion id, then by the group's id.
+pub type AlikeMarks = BTreeMap<String, BTreeMap<String, Override>>;
+
+/// What a person gave one student.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub struct HandMarks {
+    /// Boxes of the cover sheet that are filled by hand, by row id.
+    pub cover: BTreeMap<String, Points>,
+    /// Rows of the observation sheet, by row id.
+    pub observed: BTreeMap<String, Points>,
+    /// Criteria whose mark a person has decided, by criterion id.
+    pub items: BTreeMap<String, Override>,
+    /// Decisions for like answers of the whole class: for what is not in `items`.
+    pub alike: Arc<AlikeMarks>,
+    /// Points given or taken beside the cover sheet.
+    pub adjustments: Vec<Adjustment>,
+    /// What it costs to hand in late, the same for the whole class.
+    pub late_rule: Option<LateRule>,
+    /// Whether it is late, whatever the LMS says.
+    pub late: Option<bool>,
+}
+
+impl HandMarks {
+    /// What a person decided for a criterion worth `most`: for this student's answer, else for answers like it. Points out of
+    /// range are not given. `answer` works out the hash of the answer.
+    pub(super) fn given(
+        &self,
+        criterion: &str,
+        most: Points,
+        alike: Option<&str>,
+        answer: &dyn Fn() -> Option<String>,
+    ) -> Option<Given<'_>> {
+        let of_group = || self.alike.get(criterion)?.get(alike?);
+        let in_range = |given: &&Override| (Points::ZERO..=most).contains(&given.points);
+        let given = self.items.get(criterion).filter(in_range).or_else(|| of_group().filter(in_range))?;
+        let is_for = given.answers.is_empty() || given.is_for(answer().as_deref());
+        Some(if is_for { Given::Applies(given) } else { Given::Held(given) })
+    }
+
+    /// Everything in which one student's marks can differ from another's, for comparing: decisions for groups aside.
+    pub fn shown(&self) -> String {
+        let Self { cover, observed, items, alike: _, adjustments, late_rule, late } = self;
+        format!("{:?}", (cover, observed, items, adjustments, late_rule, late))
+    }
+}
+
+/// A marks file: what a person gave, by student id.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub struct HandMarksFile {
+    students: BTreeMap<String, HandMarks>,
+    /// What holds for whoever is not listed.
+    others: HandMarks,
+    /// Where the decisions for groups stand: (criterion, group).
+    groups: BTreeMap<(String, String), Span>,
+    /// Whose an answer file is, by its name, and where that is said.
+    files: BTreeMap<String, (Vec<String>, Span)>,
+    /// Of a student's several files the name of the one that counts, by the folded id, and where that is said.
+    counts: BTreeMap<String, (String, Span)>,
+}
+
+impl HandMarksFile {
+    /// Reads a marks file: what could be read, and a finding for everything that could not or that does not fit `lab`.
+    ///
+    /// A name that ends in `.csv` says that it is a table, a row a decision; anything else is YAML:
+    ///
+    /// ```yaml
+    /// lab: ee361-lab3
+    /// late: {points: 5}
+    /// files:
+    ///   upload.yaml: {is: EE-002}
+    /// students:
+    ///   EE-001:
+    ///     viva: 30
+    ///     observed: {realization: 4}
+    ///     items:
+    ///       hanging.response.plot: {points: 0.5, reason: "axes without units", answer: 3f2a91c05be7d410}
+    ///     adjustments:
+    ///       - {points: -5, reason: "left the bench untidy"}
+    ///     counts: EE-001-second.yaml
+    /// alike:
+    ///   expect_hanging.settles:
+    ///     text-3f2a91c0: {points: 1, reason: "says so in other words"}
+    /// ```
+    pub fn parse(source: &SourceText, lab: &LabDefinition) -> (Self, Vec<Finding>) {
+        let allowed = Allowed::new(lab);
+        let (mut file, findings) = match source.name.to_lowercase().ends_with(".csv") {
+            true => table::read(source, allowed),
+            false => yaml::read(source, allowed),
+        };
+        // Decisions for the class hold for everyone, listed or not.
+        let (alike, late_rule) = (Arc::clone(&file.others.alike), file.others.late_rule.clone());
+        for marks in file.students.values_mut() {
+            marks.alike = Arc::clone(&alike);
+            marks.late_rule.clone_from(&late_rule);
+        }
+        (file, findings)
+    }
+
+    pub fn student(&self, id: &str) -> Option<&HandMarks> {
+        self.students.get(id)
+    }
+
+    /// What counts for a student, listed or not.
+    pub fn marks_for(&self, id: &str) -> &HandMarks {
+        self.students.get(id).unwrap_or(&self.others)
+    }
+
+    /// Decisions for groups of like answers.
+    pub fn alike(&self) -> &AlikeMarks {
+        &self.others.alike
+    }
+
+    /// Whose the answer file of this name is, where a person has said so.
+    pub fn whose(&self, file: &str) -> Option<&[String]> {
+        self.files.get(file).map(|(students, _)| students.as_slice())
+    }
+
+    /// The name of the file that counts for a student, where a person has said so.
+    pub fn counts_for(&self, id: &str) -> Option<&str> {
+        self.counts.get(&folded_id(id)).map(|(file, _)| file.as_str())
+    }
+
+    /// A warning for each decision about a group that is not among `groups`, the (criterion, group) of a class's answers.
+    pub fn decisions_without_answers(&self, groups: &BTreeSet<(String, String)>) -> Vec<Finding> {
+        let nobody = self.groups.iter().filter(|(group, _)| !groups.contains(*group));
+        let finding = |((criterion, group), span): (&(String, String), &Span)| {
+            let message =
+                format!("No answer of this class is in the group {} of `{criterion}`.", quoted(group));
+            Finding::warning("marks.alike_nobody", message)
+                .with_help("The class page lists the groups; they change with the answers and with the lab's phrases.")
+                .at(*span)
+        };
+        nobody.map(finding).collect()
+    }
+
+    /// A warning for each name of an answer file that is not among `names`.
+    pub fn files_not_there(&self, names: &BTreeSet<&str>) -> Vec<Finding> {
+        let counts = self.counts.values().map(|(name, span)| (name.as_str(), *span));
+        let said = self.files.iter().map(|(name, (_, span))| (name.as_str(), *span)).chain(counts);
+        let absent = said.filter(|(name, _)| !names.contains(name));
+        let finding = |(name, span): (&str, Span)| {
+            let message = format!("No answer file of this class is called {}.", quoted(name));
+            let help = match nearest(name, names.iter().copied()) {
+                Some(near) => format!("Did you mean {}?", quoted(near)),
+                None => "Give the name as the class page and results.jsonl have it.".to_owned(),
+            };
+            Finding::warning("marks.no_such_file", message).with_help(help).at(span)
+        };
+        absent.map(finding).collect()
+    }
+
+    /// In alphabetical order.
+    pub fn student_ids(&self) -> impl Iterator<Item = &str> {
+        self.students.keys().map(String::as_str)
+    }
+}
+
+fn quoted(text: &str) -> String {
+    format!("`{}`", sanitize(text))
+}
