@@ -32,7 +32,8 @@ pub use numbers::read_with_own_values;
 pub use others::OtherVariant;
 pub use outcome::Outcome;
 pub use record::{
-    AdjustmentRecord, FindingRecord, HOLDS, ItemRecord, MarkRecord, Record, ReviewRecord, Status, StudentRecord,
+    AdjustmentRecord, FindingRecord, HOLDS, ItemRecord, MarkRecord, Record, ReviewRecord, Status,
+    StudentRecord,
 };
 pub(crate) use roster::name_words;
 pub use roster::{Roster, RosterError, RosterStudent};

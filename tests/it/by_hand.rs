@@ -80,8 +80,8 @@ fn lateness_and_adjustments_make_the_mark() {
     let observed: Vec<String> =
         lab.observed.iter().map(|row| format!("{}: {}", row.id, row.points)).collect();
     let by_hand = format!("viva: 30\n    observed: {{{}}}\n", observed.join(", "));
-    program.write("in/doejane_LATE_11_21_lab.yaml", &answers("EE-1", "Jane Doe", TIPS));
-    program.write("in/roejohn_12_22_lab.yaml", &answers("EE-2", "John Roe", TIPS));
+    program.write("in/doejane_LATE_1234_56789_lab1.yaml", &answers("EE-1", "Jane Doe", TIPS));
+    program.write("in/roejohn_1235_56790_lab1.yaml", &answers("EE-2", "John Roe", TIPS));
     let marks = format!(
         "late: {{points: 5}}\nstudents:\n  EE-1:\n    {by_hand}  EE-2:\n    {by_hand}    adjustments: [{{points: -2.5, reason: '<b>untidy'}}]\n"
     );

@@ -20,6 +20,9 @@ const COLUMNS: [&str; 12] = [
     "levels",
 ];
 
+/// So many columns are read.
+const READ: usize = 6;
+
 /// A marks table may be this large, in bytes.
 const MOST_BYTES: usize = 64 << 20;
 
@@ -30,7 +33,7 @@ pub enum StubError {
     NotText(DecodeError),
     #[error("it cannot be added to, since line {line} is not CSV: {what}")]
     NotCsv { line: u64, what: String },
-    #[error("it cannot be added to: its first line has no columns `item` and `points`")]
+    #[error("it cannot be added to: its first line must have the columns {}", COLUMNS[..READ].join(", "))]
     NoColumns,
     #[error("it cannot be added to: it is not in UTF-8")]
     NotUtf8,
@@ -145,7 +148,7 @@ fn columns_and_rows(text: &str, delimiter: u8) -> Result<(Vec<Option<usize>>, BT
     let columns: Vec<Option<usize>> =
         folded.map(|name| COLUMNS.iter().position(|column| *column == name)).collect();
     let place = |column: usize| columns.iter().position(|one| *one == Some(column));
-    if place(1).is_none() || place(3).is_none() {
+    if (0..READ).any(|column| place(column).is_none()) {
         return Err(StubError::NoColumns);
     }
     let mut keys = BTreeSet::new();
