@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// What earlier runs in this output folder have marked, so that only what has changed is marked again.
 ///
@@ -153,11 +153,17 @@ fn line_at(file: &Mutex<File>, at: u64) -> Option<String> {
     Some(line)
 }
 
+/// The fingerprint of this very program; `None` when it cannot read itself.
+pub fn program_hash() -> Option<&'static str> {
+    static HASH: OnceLock<Option<String>> = OnceLock::new();
+    let read = || Some(fingerprint(std::fs::read(std::env::current_exe().ok()?).ok()?));
+    HASH.get_or_init(read).as_deref()
+}
+
 /// What every mark of a run rests on, besides the answers: this very program, the lab, the roster, who is in the class.
 ///
 /// `None` when the program cannot read itself: then nothing is used again.
 pub fn run_fingerprint(parts: &[&dyn AsRef<[u8]>]) -> Option<Fingerprint> {
-    let program = std::fs::read(std::env::current_exe().ok()?).ok()?;
-    let program = Fingerprint::default().with(program);
+    let program = Fingerprint::default().with(program_hash()?);
     Some(parts.iter().fold(program, |all, part| all.with(part.as_ref())))
 }

@@ -1,5 +1,6 @@
 //! Many submissions: intake, in parallel, gradebook, statistics. Judges nothing.
 
+mod compare;
 mod desk;
 mod fingerprint;
 mod gradebook;
@@ -7,6 +8,7 @@ mod handouts;
 mod intake;
 mod kept;
 mod marked;
+mod marks_stub;
 mod new_file;
 mod numbers;
 mod others;
@@ -14,12 +16,14 @@ mod outcome;
 mod record;
 mod roster;
 mod run;
+mod run_facts;
 mod run_records;
 mod statistics;
 mod students_seen;
 mod without_marks;
 mod workplace;
 
+pub use compare::{Change, Comparison, Standing, StandingError, compare, comparison_csv, comparison_rows};
 pub use gradebook::{GradebookCell, disarmed, gradebook_columns, gradebook_row};
 pub use handouts::{HandoutError, Handouts, write_handouts};
 pub use intake::{
@@ -27,6 +31,7 @@ pub use intake::{
     WhyAside, find_answer_files, read_capped,
 };
 pub use marked::Marked;
+pub use marks_stub::{MarksStub, StubError, appended};
 pub(crate) use new_file::NewFile;
 pub use numbers::read_with_own_values;
 pub use others::OtherVariant;
@@ -38,4 +43,5 @@ pub use record::{
 pub(crate) use roster::name_words;
 pub use roster::{Roster, RosterError, RosterStudent};
 pub use run::{ClassError, ClassJob, Progress, grade_class};
+pub use run_facts::{LabFacts, LevelFacts, PartFacts, ProgramFacts, RunFacts};
 pub use workplace::is_unfinished;

@@ -25,6 +25,8 @@ pub struct Outcome {
     pub to_review: usize,
     /// Submissions with a decision of a person about an answer that has changed since.
     pub answers_changed: usize,
+    /// Something waits for a person: a mark, a row, a box, or whose a file is.
+    pub waiting: bool,
     pub mean_earned: f64,
     pub possible: f64,
     /// Ids in the marks file that nobody in the class has.

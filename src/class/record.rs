@@ -212,6 +212,9 @@ pub struct ReviewRecord {
     pub words: String,
     /// How the answer begins.
     pub answer: String,
+    /// A person has decided about another answer than the one that stands here now.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub decided: bool,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -536,6 +539,7 @@ impl ReviewRecord {
             },
             words: if item.evidence.phrases.is_empty() { String::new() } else { item.evidence.found.clone() },
             answer: field.map_or_else(String::new, |field| beginning(marked, field)),
+            decided: item.held.is_some(),
         }
     }
 }

@@ -10,6 +10,7 @@ use super::numbers::{Benches, WithoutNumbers};
 use super::others::Others;
 use super::outcome::Outcome;
 use super::record::Record;
+use super::run_facts::RunFacts;
 use super::run_records::{RunRecords, Written};
 use super::statistics::Statistics;
 use super::students_seen::StudentsSeen;
@@ -73,7 +74,7 @@ pub enum ClassError {
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
 
-/// Marks every file and writes `index.html`, `reports/…`, `gradebook.csv`, `results.jsonl` into `job.out`.
+/// Marks every file and writes `index.html`, `reports/…`, `gradebook.csv`, `results.jsonl`, `run.json` into `job.out`.
 ///
 /// A bad file never stops the class: it gets a report and a row like any other. Files appear whole or not at all. What an
 /// earlier run in the same folder marked is not marked again where nothing has changed that it rests on; the files come out
@@ -176,8 +177,10 @@ pub fn grade_class(
     }
     outcome.removed_reports = remove_old_reports(job.out, &desk.kept, &statistics);
     outcome.older_reports = older_reports(job.out, &statistics);
+    let facts = NewFile::create(job.out.join("run.json"), &workplace.running())?;
     let index = NewFile::create(job.out.join("index.html"), &workplace.running())?;
     records.publish(&workplace)?;
+    facts.write_all(RunFacts::of(job).to_text()?.as_bytes())?;
     gradebook_file.finish()?;
     index.write_all(job.kit.class_page(&statistics.summary(job.lab)).as_bytes())?;
     workplace.finish()?;

@@ -3,6 +3,7 @@ use super::kept::program_hash;
 use super::run::ClassJob;
 use crate::lab::{CoverSource, LabDefinition};
 use serde::{Deserialize, Serialize};
+use std::path::Path;
 
 /// `run.json`: with what the results beside it were made, and what of the lab is needed to read them without it.
 ///
@@ -74,6 +75,12 @@ impl RunFacts {
             marks: job.marks.map(|marks| shown(marks)),
             roster: job.roster.map(|roster| shown(roster)),
         }
+    }
+
+    /// Those of the results in this file; `None` where there are none that can be read.
+    pub fn beside(results: &Path) -> Option<Self> {
+        let text = std::fs::read_to_string(results.with_file_name("run.json")).ok()?;
+        serde_json::from_str(&text).ok()
     }
 
     /// As it stands in the file.

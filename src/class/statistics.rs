@@ -74,6 +74,9 @@ impl Statistics {
         self.outcome.failed += usize::from(record.failed);
         let changed = record.findings.iter().any(|finding| finding.code == "marks.answer_changed");
         self.outcome.answers_changed += usize::from(changed);
+        let empty = record.observed.iter().chain(&record.cover).any(|row| row.earned.is_none());
+        self.outcome.waiting |=
+            empty || record.held().next().is_some() || record.to_review().next().is_some();
         let waiting = self.review.len();
         self.review.extend(review_entries(record, &self.titles));
         self.review.extend(other_variant_entries(record, &self.titles));

@@ -26,8 +26,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let comparison = compare(&old, &new);
     match &arguments.out {
         Some(out) => {
-            std::fs::create_dir_all(out)
-                .map_err(|error| Failure::Write { path: out.clone(), error })?;
+            std::fs::create_dir_all(out).map_err(|error| Failure::Write { path: out.clone(), error })?;
             write_comparison(&comparison, &new, out)?;
             print!("{}", in_short(&comparison));
         }
@@ -35,7 +34,10 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
             let mut text = in_short(&comparison);
             for [student, _, item, old, new, _, cause] in comparison_rows(&comparison) {
                 let cells = [student, item, format!("{} → {}", shown(&old), shown(&new)), cause];
-                text.push_str(&format!("  {}\n", cells.map(|cell| crate::source::sanitize(&cell)).join("  ")));
+                text.push_str(&format!(
+                    "  {}\n",
+                    cells.map(|cell| crate::source::sanitize(&cell)).join("  ")
+                ));
             }
             write_output(None, &text)?;
         }

@@ -1,7 +1,8 @@
+use super::compare::{in_short, write_comparison};
 use super::outcome::{
     Failure, INTERRUPTED, OURS, THEIRS, colour_on_stderr, load_roster, load_with_reference,
 };
-use crate::class::{ClassJob, Outcome, find_answer_files, grade_class};
+use crate::class::{ClassJob, Outcome, Standing, compare, find_answer_files, grade_class};
 use crate::grading::Catalogue;
 use crate::grading::HandMarksFile;
 use crate::lab::LabDefinition;
@@ -42,6 +43,10 @@ pub struct Arguments {
     /// Mark everything again, also what has not changed since the last run into the same folder.
     #[arg(long)]
     from_scratch: bool,
+    /// Output folder of an earlier run (the one written to, too) or its results.jsonl: says which points have changed since, and why,
+    /// in compare.csv and compare.html.
+    #[arg(long, value_name = "OLD")]
+    compare: Option<PathBuf>,
     /// End with exit code 1 when a file could not be read.
     #[arg(long)]
     strict: bool,
@@ -54,6 +59,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let roster = arguments.roster.as_deref().map(load_roster).transpose()?;
     let intake =
         find_answer_files(&arguments.paths, arguments.marks.as_deref())?.with_attempts_settled(&lab.sheet);
+    // Read before anything is written into the same folder.
+    let before = arguments.compare.as_deref().map(Standing::load).transpose()?;
     let catalogue = Catalogue::new(&lab, &reference);
     let kit = ReportKit::new(&lab, &reference)?;
     let bar = progress_bar(intake.files.len());
@@ -89,6 +96,12 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         }
     }
     print!("{}", summary(&outcome, &arguments.out));
+    if let Some(before) = &before {
+        let now = Standing::load(&arguments.out)?;
+        let comparison = compare(before, &now);
+        write_comparison(&comparison, &now, &arguments.out)?;
+        print!("{}", in_short(&comparison));
+    }
     Ok(match &outcome {
         outcome if outcome.failed > 0 => ExitCode::from(OURS),
         outcome if outcome.unreadable > 0 && arguments.strict => ExitCode::from(THEIRS),
@@ -210,6 +223,12 @@ fn summary(outcome: &Outcome, out: &Path) -> String {
     }
     for id in &outcome.marks_without_submission {
         text.push_str(&format!("  the marks file has marks for `{}`, who handed nothing in\n", sanitize(id)));
+    }
+    if outcome.waiting {
+        let out = sanitize(&out.to_string_lossy());
+        text.push_str(&format!(
+            "  what waits for a person, to be filled in: polemark marks {out} --out marks.yaml\n"
+        ));
     }
     for (what, name) in
         [("class page", "index.html"), ("gradebook", "gradebook.csv"), ("results", "results.jsonl")]

@@ -47,9 +47,11 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         eprintln!("{}: {added} rows added; {}", sanitize(&path.to_string_lossy()), stub.in_short());
     } else {
         let new = File::create_new(path);
-        new.and_then(|mut file| file.write_all(stub.to_yaml().as_bytes())).map_err(|error| match error.kind() {
-            io::ErrorKind::AlreadyExists => Failure::Exists { path: path.clone() },
-            _ => written(error),
+        new.and_then(|mut file| file.write_all(stub.to_yaml().as_bytes())).map_err(|error| {
+            match error.kind() {
+                io::ErrorKind::AlreadyExists => Failure::Exists { path: path.clone() },
+                _ => written(error),
+            }
         })?;
         eprintln!("{}: {}", sanitize(&path.to_string_lossy()), stub.in_short());
     }

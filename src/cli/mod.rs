@@ -1,12 +1,14 @@
-//! The command line: labs · new · handout · check · grade · export · verify · reference · schema. Alone prints, reads the
+//! The command line: labs · new · handout · check · grade · marks · compare · export · verify · reference · schema. Alone prints, reads the
 //! environment, ends the process.
 
 mod check;
+mod compare;
 mod export;
 mod format;
 mod grade;
 mod handout;
 mod labs;
+mod marks;
 mod new;
 mod outcome;
 mod reference;
@@ -33,6 +35,8 @@ enum Verb {
     Handout(handout::Arguments),
     Grade(grade::Arguments),
     Export(export::Arguments),
+    Marks(marks::Arguments),
+    Compare(compare::Arguments),
     Verify(verify::Arguments),
     Reference(reference::Arguments),
     Schema(schema::Arguments),
@@ -49,6 +53,8 @@ pub fn main() -> ExitCode {
         Verb::Handout(arguments) => handout::run(&arguments),
         Verb::Grade(arguments) => grade::run(&arguments),
         Verb::Export(arguments) => export::run(&arguments),
+        Verb::Marks(arguments) => marks::run(&arguments),
+        Verb::Compare(arguments) => compare::run(&arguments),
         Verb::Verify(arguments) => verify::run(&arguments),
         Verb::Reference(arguments) => reference::run(&arguments),
         Verb::Schema(arguments) => schema::run(&arguments),

@@ -1,6 +1,6 @@
 use super::export::ExportFailure;
 use crate::annotations::JunitError;
-use crate::class::{ClassError, IntakeError, Roster, RosterError};
+use crate::class::{ClassError, IntakeError, Roster, RosterError, StandingError};
 use crate::gradebook::ExportError;
 use crate::lab::{LabDefinition, LoadError};
 use crate::reference::{Reference, ReferenceError};
@@ -50,6 +50,14 @@ pub enum Failure {
     ExportArguments(#[from] ExportFailure),
     #[error("{rendered}")]
     Marks { rendered: String },
+    #[error("error: {0}")]
+    Standing(#[from] StandingError),
+    #[error("error: a table cannot be written: {0}")]
+    Table(#[from] csv::Error),
+    #[error("error: `{}` is there already, and is not changed; choose another name, or a table (.csv), to which rows are added", path.display())]
+    Exists { path: PathBuf },
+    #[error("error: the last run into `{}` was stopped; run it again to the end first", path.display())]
+    Unfinished { path: PathBuf },
 }
 
 impl Failure {

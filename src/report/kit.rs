@@ -50,7 +50,7 @@ pub enum ReportError {
     Template { name: &'static str, source: minijinja::Error },
 }
 
-const TEMPLATES: [(&str, &str); 8] = [
+const TEMPLATES: [(&str, &str); 9] = [
     ("base.html", include_str!("../../templates/base.html")),
     ("parts.html", include_str!("../../templates/parts.html")),
     ("style.css", include_str!("../../templates/style.css")),
@@ -58,6 +58,7 @@ const TEMPLATES: [(&str, &str); 8] = [
     ("derivation.html", include_str!("../../templates/derivation.html")),
     ("reference.html", include_str!("../../templates/reference.html")),
     ("handout.html", include_str!("../../templates/handout.html")),
+    ("compare.html", include_str!("../../templates/compare.html")),
     ("class.html", include_str!("../../templates/class.html")),
 ];
 

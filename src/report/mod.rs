@@ -5,6 +5,7 @@ mod answer_key;
 mod answers;
 mod class_page;
 mod class_summary;
+mod compare_page;
 mod conflicts;
 mod derivation;
 mod escape;
@@ -35,5 +36,6 @@ mod view;
 
 pub use anchor::{item_anchor, question_anchor};
 pub use class_summary::{ClassRow, ClassSummary, IntakeEntry, IntakeKind, QuestionMean, ReviewEntry};
+pub use compare_page::compare_page;
 pub use handout::{HandoutKit, HandoutStudent};
 pub use kit::{ReportError, ReportKit};

@@ -139,6 +139,7 @@ fn assert_whole(out: &Path, students: usize) {
                     polemark::class::Record::from_line(line).unwrap();
                 }
             }
+            "run.json" => assert!(text.ends_with("}\n")),
             "gradebook.csv" => assert_eq!(text.lines().count(), students + 1),
             _ => {
                 assert!(name.ends_with(".html"), "{name} should not be here");

@@ -134,3 +134,111 @@ fn what_a_person_says_settles_whose_it_is_and_which_counts() {
     assert!(alone.err.contains("marks.no_such_file") && alone.err.contains("second.yaml"), "{}", alone.err);
     assert_eq!(record_of(&program, "out", "EE-1").file, "first.yaml");
 }
+
+/// Fills in what the stub leaves open, by what stands before the colon.
+fn filled(stub: &str) -> String {
+    let line = |line: &str| {
+        let bare = line.split(" #").next().unwrap_or_default();
+        match bare.trim() {
+            "points:" => line.replace("points:", "points: 0.5"),
+            "reason:" => line.replace("reason:", "reason: looked at"),
+            "viva:" => bare.replace("viva:", "viva: 30"),
+            name if name.ends_with(':') && bare.starts_with("      ") && !line.contains('–') => {
+                match line.split("# of ").nth(1) {
+                    Some(points) => format!("{bare} {points}"),
+                    None => line.to_owned(),
+                }
+            }
+            _ => line.to_owned(),
+        }
+    };
+    stub.lines().map(|one| line(one) + "\n").collect()
+}
+
+#[test]
+fn from_the_stub_to_nothing_that_waits_and_back_when_an_answer_changes() {
+    let program = Program::new();
+    program.write("in/a.yaml", &answers("EE-1", "\"=A # 'b\"", TIPS));
+    program.write("in/b.yaml", &answers("EE-2", "B", TIPS));
+    program.write("in/c.yaml", &answers("EE-3", "C", "It swings.\n  hanging.response.plot: curve.png"));
+    let told = grade(&program, &[]);
+    assert!(told.contains("polemark marks out --out marks.yaml"), "{told}");
+    program.run(&["marks", "out", "--out", "marks.yaml"]).ends_with(0);
+    let stub = fs::read_to_string(program.path("marks.yaml")).unwrap();
+    // Unfilled, it says nothing; and it is not overwritten.
+    let marks = ["--marks", "marks.yaml"];
+    grade(&program, &marks);
+    assert!(
+        program.run(&["marks", "out", "--out", "marks.yaml"]).ends_with(2).err.contains("is there already")
+    );
+    assert_eq!(fs::read_to_string(program.path("marks.yaml")).unwrap(), stub);
+    program.write("marks.yaml", &filled(&stub));
+    let told = grade(&program, &[&marks[..], &["--compare", "out"]].concat());
+    assert!(!told.contains("polemark marks"), "{told}\n{}", filled(&stub));
+    assert!(told.contains("because of: marks"), "{told}");
+    let nothing = program.run(&["marks", "out"]).ends_with(0);
+    assert!(nothing.err.contains("nothing waits for a person") && nothing.out.is_empty(), "{}", nothing.out);
+    assert!(records(&program, "out").iter().all(|record| record.mark.is_some()));
+
+    program.write("in/b.yaml", &answers("EE-2", "B", "It jiggles a lot."));
+    let told = grade(&program, &marks);
+    assert!(told.contains("polemark marks out"), "{told}");
+    // In a table, rows are added for it, and then none.
+    let table = "student_id;item;group;points;reason;answer\r\nEE-1;viva;;30;;\r\n";
+    program.write("marks.csv", table);
+    program.run(&["marks", "out", "--out", "marks.csv"]).ends_with(0);
+    let more = fs::read_to_string(program.path("marks.csv")).unwrap();
+    assert!(more.starts_with(table) && more.len() > table.len(), "{more}");
+    assert!(program.run(&["marks", "out", "--out", "marks.csv"]).ends_with(0).err.contains(" 0 rows added"));
+    program.run(&["grade", "in", "--out", "other", "--marks", "marks.csv"]).ends_with(0);
+}
+
+#[test]
+fn a_comparison_names_the_cause() {
+    let program = Program::new();
+    let lab = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/it/small.yaml")).unwrap();
+    program.write("lab.yaml", &lab);
+    let write = |speed: &str| {
+        let text = format!("student: {{id: S-1, name: A}}\nanswers:\n  sled.final_value: {speed}\n");
+        program.write("in/a.yaml", &text);
+    };
+    write("-4.3");
+    let run = |more: &[&str]| {
+        let arguments =
+            [&["grade", "in", "--lab", "lab.yaml", "--out", "out", "--compare", "out"], more].concat();
+        program.run(&arguments).ends_with(0).out
+    };
+    program.run(&["grade", "in", "--lab", "lab.yaml", "--out", "out"]).ends_with(0);
+    assert!(run(&[]).contains("compared: nothing has changed"));
+    write("-4.545");
+    let told = run(&[]);
+    assert!(told.contains("because of: answer"), "{told}");
+    let table = fs::read_to_string(program.path("out/compare.csv")).unwrap();
+    assert!(
+        table.lines().nth(1).is_some_and(
+            |line| line.starts_with("S-1,A,sled.final_value.value,0,1,1") && line.ends_with(",answer")
+        ),
+        "{table}"
+    );
+    assert!(fs::read_to_string(program.path("out/compare.html")).unwrap().contains("sled.final_value.value"));
+    program.write(
+        "marks.yaml",
+        "students: {S-1: {items: {sled.final_value.value: {points: 0.5, reason: copied}}}}\n",
+    );
+    let told = run(&["--marks", "marks.yaml"]);
+    assert!(told.contains("because of: marks"), "{told}");
+    run(&[]);
+    write("-4.3");
+    run(&[]);
+    let wide = lab.replace(
+        "feature: final_value, response: step}",
+        "feature: final_value, response: step, tolerance: {relative: 0.1}}",
+    );
+    assert_ne!(wide, lab);
+    program.write("lab.yaml", &wide);
+    let told = run(&[]);
+    assert!(told.contains("because of: lab"), "{told}");
+    program.run(&["compare", "nowhere", "out"]).ends_with(2);
+    let same = program.run(&["compare", "out", "out/results.jsonl"]).ends_with(0);
+    assert_eq!(same.out, "compared: nothing has changed\n");
+}

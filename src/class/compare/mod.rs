@@ -102,15 +102,21 @@ impl<'a> Runs<'a> {
             _ => true,
         };
         let causes = [("lab", differs(|run| &run.lab.hash)), ("program", differs(|run| &run.program.hash))];
-        Self { old, new, causes: causes.into_iter().filter(|(_, differs)| *differs).map(|(cause, _)| cause).collect() }
+        Self {
+            old,
+            new,
+            causes: causes.into_iter().filter(|(_, differs)| *differs).map(|(cause, _)| cause).collect(),
+        }
     }
 
     fn of_student(&self, student: &str, one: &One, two: &One, comparison: &mut Comparison) {
         if one.late != two.late {
             comparison.changes.push(two.whole(student, one.worth(), two.worth(), "late"));
         }
-        let old: BTreeMap<&str, &Part> = one.parts.iter().map(|part| (self.old.name_of(part), part)).collect();
-        let new: BTreeMap<&str, &Part> = two.parts.iter().map(|part| (self.new.name_of(part), part)).collect();
+        let old: BTreeMap<&str, &Part> =
+            one.parts.iter().map(|part| (self.old.name_of(part), part)).collect();
+        let new: BTreeMap<&str, &Part> =
+            two.parts.iter().map(|part| (self.new.name_of(part), part)).collect();
         let gone = one.parts.iter().map(|part| self.old.name_of(part)).filter(|name| !new.contains_key(name));
         let names = two.parts.iter().map(|part| self.new.name_of(part)).chain(gone);
         for name in names {
@@ -119,7 +125,10 @@ impl<'a> Runs<'a> {
             if points(old) == points(new) {
                 continue;
             }
-            let cause = self.cause(one, two, old, new);
+            let cause = match name == "adjustments" && one.late != two.late {
+                true => "late".to_owned(),
+                false => self.cause(one, two, old, new),
+            };
             comparison.changes.push(Change {
                 student: student.to_owned(),
                 name: two.name.clone(),
@@ -142,14 +151,16 @@ impl<'a> Runs<'a> {
         if new_part.by_hand {
             return "marks".to_owned();
         }
-        if old_part.answer != new_part.answer {
+        // An older polemark did not say which answers it read.
+        let answers_are_known = self.old.facts.is_some() && self.new.facts.is_some();
+        if answers_are_known && old_part.answer != new_part.answer {
             return "answer".to_owned();
         }
         if old_part.by_hand {
             return "marks".to_owned();
         }
         let mut causes = self.causes.clone();
-        if one.answers != two.answers {
+        if !answers_are_known || one.answers != two.answers {
             causes.insert(0, "answer");
         }
         match causes.as_slice() {

@@ -57,11 +57,12 @@ impl Standing {
         let mut standing = Self::new(RunFacts::beside(&results));
         let file = BufReader::new(File::open(&results).map_err(read)?);
         for (place, line) in file.lines().enumerate() {
-            let record = Record::from_line(&line.map_err(read)?).map_err(|error| StandingError::NotARecord {
-                path: results.clone(),
-                line: place + 1,
-                what: sanitize(&error.to_string()),
-            })?;
+            let record =
+                Record::from_line(&line.map_err(read)?).map_err(|error| StandingError::NotARecord {
+                    path: results.clone(),
+                    line: place + 1,
+                    what: sanitize(&error.to_string()),
+                })?;
             standing.add(&record);
         }
         Ok(standing)

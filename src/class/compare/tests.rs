@@ -56,6 +56,14 @@ fn each_change_has_its_cause() {
 }
 
 #[test]
+fn of_an_older_polemark_little_is_known() {
+    let mut old = RUN.standing("EE-1");
+    old.facts = None;
+    let found = compare(&old, &Run { points: 2.0, answer: "c", ..RUN }.standing("EE-1"));
+    assert_eq!(found.changes[0].cause, "answer or lab or program");
+}
+
+#[test]
 fn who_came_and_who_went() {
     let found = compare(&RUN.standing("EE-1"), &RUN.standing("EE-2"));
     let told: Vec<_> = found.changes.iter().map(|one| (one.student.as_str(), one.cause.as_str())).collect();

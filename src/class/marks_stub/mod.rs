@@ -159,13 +159,18 @@ impl MarksStub {
             _ => Some(format!("{count} {many}")),
         };
         let alone: usize = self.students.iter().map(|student| student.items.len()).sum();
-        let rows: usize = self.students.iter().map(|student| student.cover.len() + student.observed.len()).sum();
+        let rows: usize =
+            self.students.iter().map(|student| student.cover.len() + student.observed.len()).sum();
         let which = self.students.iter().filter(|student| student.which_counts).count();
         let parts: Vec<String> = [
             counted(self.groups.len(), "group of like answers", "groups of like answers"),
             counted(alone, "answer on its own", "answers on their own"),
             counted(rows, "row or box that a person fills", "rows and boxes that a person fills"),
-            counted(self.files.len(), "file of which to say whose it is", "files of which to say whose they are"),
+            counted(
+                self.files.len(),
+                "file of which to say whose it is",
+                "files of which to say whose they are",
+            ),
             counted(which, "student with several files", "students with several files"),
         ]
         .into_iter()

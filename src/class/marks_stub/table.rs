@@ -51,7 +51,7 @@ pub fn appended(before: &[u8], stub: &MarksStub) -> Result<(Vec<u8>, usize), Stu
     let (columns, there) = if is_new { own_columns() } else { columns_and_rows(&text, delimiter)? };
     let ending = if text.contains("\r\n") { "\r\n" } else { "\n" };
     let mut out = before.to_vec();
-    let mut line = |cells: &[String], out: &mut Vec<u8>| {
+    let line = |cells: &[String], out: &mut Vec<u8>| {
         let cells: Vec<String> = cells.iter().map(|cell| quoted(cell, delimiter)).collect();
         out.extend(cells.join(&char::from(delimiter).to_string()).as_bytes());
         out.extend(ending.as_bytes());
@@ -66,8 +66,10 @@ pub fn appended(before: &[u8], stub: &MarksStub) -> Result<(Vec<u8>, usize), Stu
         if there.contains(&key(&row[0], &row[1], &row[2], &row[5])) {
             continue;
         }
-        let cells: Vec<String> =
-            columns.iter().map(|column| column.map_or_else(String::new, |place| disarmed(&row[place]))).collect();
+        let cells: Vec<String> = columns
+            .iter()
+            .map(|column| column.map_or_else(String::new, |place| disarmed(&row[place])))
+            .collect();
         line(&cells, &mut out);
         added += 1;
     }
@@ -106,11 +108,37 @@ impl MarksStub {
                     format!("{} {}: {}", level.points, level.title, level.text)
                 };
                 let levels = part.levels.iter().map(level).collect::<Vec<_>>().join(" | ");
-                rows.push(row([id, &item, "", "", "", "", name, &part.possible, "", &part.title, "", &levels]));
+                rows.push(row([
+                    id,
+                    &item,
+                    "",
+                    "",
+                    "",
+                    "",
+                    name,
+                    &part.possible,
+                    "",
+                    &part.title,
+                    "",
+                    &levels,
+                ]));
             }
             for (item, answer, about) in &student.items {
                 let (possible, given) = (about.possible.to_string(), about.given.to_string());
-                rows.push(row([id, item, "", "", "", answer, name, &possible, &given, &about.why, &about.begins, ""]));
+                rows.push(row([
+                    id,
+                    item,
+                    "",
+                    "",
+                    "",
+                    answer,
+                    name,
+                    &possible,
+                    &given,
+                    &about.why,
+                    &about.begins,
+                    "",
+                ]));
             }
         }
         rows

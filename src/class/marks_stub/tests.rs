@@ -12,7 +12,8 @@ fn lab() -> LabFacts {
         possible: possible.to_owned(),
         levels: Vec::new(),
     };
-    let level = LevelFacts { points: "3–4".to_owned(), title: "Good".to_owned(), text: "with help".to_owned() };
+    let level =
+        LevelFacts { points: "3–4".to_owned(), title: "Good".to_owned(), text: "with help".to_owned() };
     LabFacts {
         id: "a-lab".to_owned(),
         title: "A lab".to_owned(),
@@ -24,7 +25,12 @@ fn lab() -> LabFacts {
 }
 
 /// A record with (item, group, hash) waiting, `begins` as the answer.
-fn record(id: &str, waiting: &[(&str, Option<&str>, Option<&str>)], findings: &[&str], begins: &str) -> Record {
+fn record(
+    id: &str,
+    waiting: &[(&str, Option<&str>, Option<&str>)],
+    findings: &[&str],
+    begins: &str,
+) -> Record {
     let items: Vec<_> = waiting
         .iter()
         .map(|(item, group, hash)| {
@@ -56,7 +62,12 @@ const HASH: &str = "0123456789abcdef";
 
 fn class() -> MarksStub {
     stub(&[
-        record("EE-1", &[("q.one", Some("said-1"), Some(HASH)), ("q.two", None, None)], &[], "It \"swings\" # not"),
+        record(
+            "EE-1",
+            &[("q.one", Some("said-1"), Some(HASH)), ("q.two", None, None)],
+            &[],
+            "It \"swings\" # not",
+        ),
         record("EE-2", &[("q.one", Some("said-1"), Some("fedcba9876543210"))], &[], "x"),
         record("done", &[], &[], ""),
         record("EE-3", &[("q.two", None, Some(HASH))], &["student.not_on_roster"], "y"),
@@ -83,7 +94,8 @@ fn the_stub_asks_for_everything_that_waits() {
         let found = at(path).unwrap_or_else(|| panic!("{path:?} in\n{text}"));
         assert_eq!(found.as_scalar(), hash, "{path:?}");
     }
-    let answers = at(&["alike", "q.one", "said-1", "answer"]).and_then(source::Node::as_sequence).map(<[_]>::len);
+    let answers =
+        at(&["alike", "q.one", "said-1", "answer"]).and_then(source::Node::as_sequence).map(<[_]>::len);
     assert_eq!(answers, Some(2));
     assert!(at(&["students", "done"]).is_none() && at(&["students", "EE-3"]).is_none(), "{text}");
     assert!(text.contains("#     3–4  Good: with help"), "{text}");
@@ -109,8 +121,8 @@ fn a_table_gets_only_the_rows_that_are_not_there() {
         let (after, added) = appended(before.as_bytes(), &stub).unwrap();
         assert!(after.starts_with(before.as_bytes()), "{before}");
         let after = String::from_utf8(after).unwrap();
-        assert_eq!(after.matches("viva").count(), 2, "{after}");
-        assert!(added < 8 && !after.contains("viva\nis"), "{after}");
+        let asked = after.lines().filter(|line| line.split([',', ';']).any(|cell| cell == "viva")).count();
+        assert!(asked == 2 && added < 8, "{after}");
         assert_eq!(appended(after.as_bytes(), &stub).unwrap().1, 0, "{after}");
     }
     for (before, error) in [

@@ -17,11 +17,21 @@ impl MarksStub {
 
     fn write(&self, out: &mut String) -> std::fmt::Result {
         writeln!(out, "# What waits for a person: {}.", comment(&self.lab.title))?;
-        writeln!(out, "# Fill in points and a reason, which the student reads; what stays empty is not given yet.")?;
-        writeln!(out, "# Then run grade again with --marks and this file. An answer that changes after that is put before you again.")?;
+        writeln!(
+            out,
+            "# Fill in points and a reason, which the student reads; what stays empty is not given yet."
+        )?;
+        writeln!(
+            out,
+            "# Then run grade again with --marks and this file. An answer that changes after that is put before you again."
+        )?;
         writeln!(out, "lab: {}", quoted(&self.lab.id))?;
         if self.late > 0 {
-            writeln!(out, "\n# {} handed in late. What that costs, points or {{percent: 10}} of what was earned:", self.late)?;
+            writeln!(
+                out,
+                "\n# {} handed in late. What that costs, points or {{percent: 10}} of what was earned:",
+                self.late
+            )?;
             writeln!(out, "late: {{points: }}")?;
         }
         for (file, message) in &self.elsewhere {
@@ -57,8 +67,10 @@ impl MarksStub {
                 [] => {}
                 [only] => writeln!(out, "      answer: {}", quoted(only))?,
                 many => {
-                    let lines: Vec<String> =
-                        many.chunks(HASHES).map(|line| line.iter().map(|hash| quoted(hash)).collect::<Vec<_>>().join(", ")).collect();
+                    let lines: Vec<String> = many
+                        .chunks(HASHES)
+                        .map(|line| line.iter().map(|hash| quoted(hash)).collect::<Vec<_>>().join(", "))
+                        .collect();
                     writeln!(out, "      answer: [{}]", lines.join(",\n        "))?;
                 }
             }
@@ -142,7 +154,8 @@ pub(super) fn quoted(text: &str) -> String {
     let plain = text.starts_with(|c: char| c.is_ascii_alphabetic())
         && text.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '.' | '_' | '-'));
     // Some readers take these for something else than text.
-    let word = ["null", "true", "false", "yes", "no", "on", "off", "y", "n"].contains(&text.to_lowercase().as_str());
+    let word =
+        ["null", "true", "false", "yes", "no", "on", "off", "y", "n"].contains(&text.to_lowercase().as_str());
     if plain && !word {
         return text.to_owned();
     }
@@ -153,7 +166,8 @@ pub(super) fn quoted(text: &str) -> String {
             // Nobody sees what these do; U+FFFD is what `sanitize` puts in their place.
             c if c.is_control() || sanitize(c.encode_utf8(&mut [0; 4])).starts_with('\u{fffd}') => {
                 let code = u32::from(c);
-                let _ = if code < 0x1_0000 { write!(out, "\\u{code:04x}") } else { write!(out, "\\U{code:08x}") };
+                let _ =
+                    if code < 0x1_0000 { write!(out, "\\u{code:04x}") } else { write!(out, "\\U{code:08x}") };
             }
             c => out.push(c),
         }

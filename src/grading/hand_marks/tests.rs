@@ -230,3 +230,16 @@ fn what_does_not_fit_in_a_table_is_said_and_where() {
         check_as("marks.csv", &[(&text, want)]);
     }
 }
+
+#[test]
+fn the_examples_of_the_manual_are_read() {
+    let manual = include_str!("../../../docs/marks.md");
+    for (language, name) in [("yaml", "marks.yaml"), ("csv", "marks.csv")] {
+        let (_, block) = manual.split_once(&format!("```{language}\n")).unwrap();
+        let (text, _) = block.split_once("```").unwrap();
+        let (file, findings) = parse_as(name, text);
+        assert!(findings.is_empty(), "{name}: {findings:?}");
+        assert_eq!(file.marks_for("EE-001").adjustments.len(), 1, "{name}");
+        assert_eq!(file.whose("upload.yaml"), Some(["EE-007".to_owned()].as_slice()), "{name}");
+    }
+}
