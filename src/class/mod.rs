@@ -1,5 +1,6 @@
 //! Many submissions: intake, in parallel, gradebook, statistics. Judges nothing.
 
+mod analysis;
 mod compare;
 mod desk;
 mod fingerprint;

@@ -182,7 +182,7 @@ pub fn grade_class(
     records.publish(&workplace)?;
     facts.write_all(RunFacts::of(job).to_text()?.as_bytes())?;
     gradebook_file.finish()?;
-    index.write_all(job.kit.class_page(&statistics.summary(job.lab)).as_bytes())?;
+    index.write_all(job.kit.class_page(&statistics.summary()).as_bytes())?;
     workplace.finish()?;
     Ok(outcome)
 }

@@ -1,21 +1,30 @@
+use super::analysis::{AnswersAlike, Attainments, Classes, ItemAnalysis, Mistakes, says_something};
 use super::intake::Aside;
 use super::outcome::Outcome;
 use super::record::{ItemRecord, Record, Status};
 use crate::english::listed;
 use crate::lab::{LabDefinition, Points};
-use crate::report::{
-    ClassRow, ClassSummary, IntakeEntry, IntakeKind, QuestionMean, ReviewEntry, item_anchor,
-};
+use crate::report::{ClassRow, ClassSummary, IntakeEntry, IntakeKind, People, ReviewEntry, item_anchor};
 use crate::submission::Student;
 use std::collections::{BTreeMap, BTreeSet};
+
+/// Groups of like answers that are told apart in the review list.
+const MOST_GROUPS: usize = 5_000;
 
 /// What the class page and the summary need, gathered one submission at a time.
 pub struct Statistics {
     rows: Vec<ClassRow>,
     review: Vec<ReviewEntry>,
+    /// Entries of a criterion, reason and group, those that are not listed too.
+    review_counts: BTreeMap<(String, String, Option<String>), usize>,
     intake: Vec<IntakeEntry>,
-    /// Points earned by all, per question of the lab.
-    earned: Vec<Points>,
+    items: ItemAnalysis,
+    mistakes: Mistakes,
+    classes: Classes,
+    outcomes: Attainments,
+    answers: AnswersAlike,
+    /// Of the record before.
+    last_file: String,
     student_ids: BTreeSet<String>,
     /// (criterion, group) of every like answer.
     groups: BTreeSet<(String, String)>,
@@ -31,8 +40,14 @@ impl Statistics {
         Self {
             rows: Vec::new(),
             review: Vec::new(),
+            review_counts: BTreeMap::new(),
             intake: Vec::new(),
-            earned: vec![Points::ZERO; lab.questions.len()],
+            items: ItemAnalysis::new(lab),
+            mistakes: Mistakes::new(lab),
+            classes: Classes::new(lab),
+            outcomes: Attainments::new(lab),
+            answers: AnswersAlike::new(lab),
+            last_file: String::new(),
             student_ids: BTreeSet::new(),
             groups: BTreeSet::new(),
             titles: lab
@@ -62,8 +77,8 @@ impl Statistics {
             }
         }
         self.outcome.late += usize::from(record.is_late());
-        for (sum, question) in self.earned.iter_mut().zip(&record.questions) {
-            *sum += question.tally.earned;
+        if says_something(record) {
+            self.analyse(record);
         }
         self.total += record.total.earned;
         self.student_ids.extend(record.students.iter().map(|s| s.id.clone()));
@@ -77,13 +92,38 @@ impl Statistics {
         let empty = record.observed.iter().chain(&record.cover).any(|row| row.earned.is_none());
         self.outcome.waiting |=
             empty || record.held().next().is_some() || record.to_review().next().is_some();
-        let waiting = self.review.len();
-        self.review.extend(review_entries(record, &self.titles));
-        self.review.extend(other_variant_entries(record, &self.titles));
+        let entries = review_entries(record, &self.titles).chain(other_variant_entries(record, &self.titles));
+        let entries: Vec<ReviewEntry> = entries.collect();
+        self.outcome.to_review += usize::from(!entries.is_empty());
+        entries.into_iter().for_each(|entry| self.list(entry));
         let groups = record.items.iter().filter_map(|item| Some((item.id.clone(), item.alike.clone()?)));
         self.groups.extend(groups);
-        self.outcome.to_review += usize::from(self.review.len() > waiting);
         self.rows.push(class_row(record));
+    }
+
+    fn analyse(&mut self, record: &Record) {
+        self.items.add(record);
+        self.mistakes.add(record, &names(record), &record.report);
+        self.classes.add(record);
+        self.outcomes.add(record);
+        // Members of a group with reports of their own have the same answers.
+        if self.last_file != record.file {
+            self.answers.add(record, self.rows.len());
+            self.last_file.clone_from(&record.file);
+        }
+    }
+
+    /// Lists an entry, unless there are many like it already, or of very many groups.
+    fn list(&mut self, mut entry: ReviewEntry) {
+        let mut key = (entry.item.clone(), entry.why.clone(), entry.alike.clone());
+        if self.review_counts.len() >= MOST_GROUPS && !self.review_counts.contains_key(&key) {
+            (entry.alike, key.2) = (None, None);
+        }
+        let count = self.review_counts.entry(key).or_default();
+        *count += 1;
+        if *count <= People::MOST {
+            self.review.push(entry);
+        }
     }
 
     /// Notes files that are not marked.
@@ -133,19 +173,31 @@ impl Statistics {
         Outcome { mean_earned: self.total.as_f64() / self.count(), ..self.outcome.clone() }
     }
 
-    pub fn summary(self, lab: &LabDefinition) -> ClassSummary {
-        let count = self.count();
-        let questions = lab
-            .questions
-            .iter()
-            .zip(&self.earned)
-            .map(|(question, earned)| QuestionMean {
-                id: question.id.clone(),
-                mean: earned.as_f64() / count,
-                possible: question.points,
-            })
-            .collect();
-        ClassSummary { rows: self.rows, questions, review: self.review, intake: self.intake }
+    pub fn summary(self) -> ClassSummary {
+        let (mistakes, more_mistakes) = self.mistakes.list();
+        let who = |row: usize| match self.rows.get(row) {
+            Some(row) => {
+                (names_of(row.students.iter().map(|one| (&*one.id, &*one.name))), row.report.clone())
+            }
+            None => Default::default(),
+        };
+        let (answers_shared, answers_not_compared) = self.answers.list(who);
+        ClassSummary {
+            counted: self.items.count(),
+            totals: self.items.totals(),
+            questions: self.items.questions(),
+            criteria: self.items.criteria(),
+            mistakes,
+            more_mistakes,
+            classes: self.classes.table(),
+            outcomes: self.outcomes.list(),
+            answers_shared,
+            answers_not_compared,
+            rows: self.rows,
+            review: self.review,
+            review_counts: self.review_counts,
+            intake: self.intake,
+        }
     }
 
     /// Which of `ids` nobody in the class has.
@@ -179,6 +231,7 @@ fn class_row(record: &Record) -> ClassRow {
         possible: record.total.possible,
         provisional: record.total.provisional,
         findings: record.findings.len(),
+        to_review: record.to_review().count(),
         cover_total: record.cover_total,
         readable: record.readable,
         missing: record.status == Status::Missing,
@@ -188,8 +241,12 @@ fn class_row(record: &Record) -> ClassRow {
 
 /// Names of the students, ids where there are none.
 fn names(record: &Record) -> String {
-    let names =
-        record.students.iter().map(|s| if s.name.is_empty() { s.id.as_str() } else { s.name.as_str() });
+    names_of(record.students.iter().map(|one| (&*one.id, &*one.name)))
+}
+
+/// Of (id, name) each.
+fn names_of<'a>(students: impl Iterator<Item = (&'a str, &'a str)>) -> String {
+    let names = students.map(|(id, name)| if name.is_empty() { id } else { name });
     names.collect::<Vec<_>>().join(", ")
 }
 

@@ -28,6 +28,9 @@ pub struct LabDefinition {
     /// Rows a person marks while watching the lab session.
     pub observed: Vec<ObservedRow>,
     pub cover: Cover,
+    /// The highest first; empty where the lab states none.
+    pub grades: Vec<Grade>,
+    pub release: Release,
     pub follow_through: FollowThroughRule,
     pub mistakes: MistakesRule,
     /// Values stated by hand or taken from an independent program; `verify` holds the computed ones against them.
@@ -55,6 +58,30 @@ pub struct FollowThroughRule {
 pub struct Outcome {
     pub id: String,
     pub text: String,
+    /// The share of the points assessing it that a student should earn (0..=1).
+    pub target: Option<Rational>,
+}
+
+/// A grade and the fewest points of the cover sheet that earn it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Grade {
+    pub name: String,
+    pub from: Points,
+}
+
+/// What students get to see in their reports.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Release {
+    /// Points.
+    pub marks: bool,
+    /// Verdicts and reasons.
+    pub feedback: bool,
+    /// Right answers, and what tells them.
+    pub solutions: bool,
+}
+
+impl Release {
+    pub const ALL: Self = Self { marks: true, feedback: true, solutions: true };
 }
 
 #[derive(Clone, Debug, PartialEq)]

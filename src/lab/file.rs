@@ -59,9 +59,9 @@ pub(super) struct LabFile {
     /// Where the lab comes from, one line.
     #[serde(default)]
     pub source: String,
-    /// Learning outcomes by id: `a: …`.
+    /// Learning outcomes by id: `a: …`, or `a: {text: …, target: 0.6}`.
     #[serde(default)]
-    pub outcomes: Entries<String>,
+    pub outcomes: Entries<OutcomeForm>,
     /// Physical parameters by the letter the equations use.
     #[serde(default)]
     pub parameters: Entries<ParameterFile>,
@@ -91,9 +91,75 @@ pub(super) struct LabFile {
     pub observed: ObservedFile,
     /// How the parts make up the total. Default: one row, of the questions and of what is observed.
     pub cover: Option<CoverFile>,
+    /// Grades and where each begins; the class page says how far each mark is from the next boundary. Default: none.
+    #[serde(default)]
+    pub grades: Vec<GradeFile>,
+    /// What students get to see in their reports. Default: all of it.
+    #[serde(default)]
+    pub release: ReleaseFile,
     /// Values known independently; `verify` holds the computed ones against them. By path into the reference.
     #[serde(default)]
     pub expect: Entries<ExpectFile>,
+}
+
+/// A learning outcome; a text stands for an outcome without a target.
+#[derive(Debug)]
+pub(super) struct OutcomeForm(pub OutcomeFile);
+
+/// A learning outcome.
+#[derive(Debug, schemars::JsonSchema, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct OutcomeFile {
+    /// What it says.
+    pub text: String,
+    /// The share of the points assessing it that a student should earn, 0 to 1; the class page says how many do. Default: none.
+    pub target: Option<Text>,
+}
+
+impl<'de> Deserialize<'de> for OutcomeForm {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct OutcomeVisitor;
+
+        impl<'de> Visitor<'de> for OutcomeVisitor {
+            type Value = OutcomeForm;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("what the outcome says, or `{text, target}`")
+            }
+
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<OutcomeForm, E> {
+                Ok(OutcomeForm(OutcomeFile { text: text.to_owned(), target: None }))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<OutcomeForm, A::Error> {
+                OutcomeFile::deserialize(MapAccessDeserializer::new(map)).map(OutcomeForm)
+            }
+        }
+
+        deserializer.deserialize_any(OutcomeVisitor)
+    }
+}
+
+/// A grade.
+#[derive(Debug, schemars::JsonSchema, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct GradeFile {
+    /// `A`, `pass`.
+    pub name: String,
+    /// The fewest points of the cover sheet that earn it.
+    pub from: Text,
+}
+
+/// What a report shows to students. What is not released stands in the instructor's edition.
+#[derive(Debug, Default, schemars::JsonSchema, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ReleaseFile {
+    /// Points. Default true.
+    pub marks: Option<bool>,
+    /// Verdicts and reasons, and what may explain a mistake. Default true.
+    pub feedback: Option<bool>,
+    /// Right answers and reference curves, and reasons that tell them. Default true.
+    pub solutions: Option<bool>,
 }
 
 /// A physical parameter.

@@ -2,7 +2,9 @@
 
 use super::FeatureKind;
 use super::check::{CHECKS, KINDS, REST, SOURCES};
-use super::file::{Entries, FieldFile, FieldForm, LabFile, RangeFile, Text, VariesFile};
+use super::file::{
+    Entries, FieldFile, FieldForm, LabFile, OutcomeFile, OutcomeForm, RangeFile, Text, VariesFile,
+};
 use schemars::generate::SchemaSettings;
 use schemars::transform::{Transform, transform_subschemas};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -69,6 +71,20 @@ impl JsonSchema for FieldForm {
         json_schema!({
             "anyOf": [{ "enum": kinds_and_features() }, generator.subschema_for::<FieldFile>()],
         })
+    }
+}
+
+impl JsonSchema for OutcomeForm {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "OutcomeForm".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "anyOf": [{ "type": "string" }, generator.subschema_for::<OutcomeFile>()] })
     }
 }
 

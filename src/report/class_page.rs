@@ -1,25 +1,50 @@
-//! The class page as a view: distribution, means, who needs review, links to every report.
+//! The class page as a view: distribution, statistics, who needs review, links to every report.
 
-use super::class_summary::{ClassRow, ClassSummary, IntakeEntry, IntakeKind, QuestionMean, ReviewEntry};
-use super::figures::distribution;
+use super::class_analysis::{
+    self, AttainmentView, BorderlineView, ConfusionView, CountView, ItemView, MistakeView, SharedView,
+};
+use super::class_summary::{ClassRow, ClassSummary, IntakeEntry, IntakeKind, ReviewEntry};
+use super::figures::{Middle, distribution};
 use super::kit::ReportKit;
 use super::numbers::{counted, number};
 use super::pictures::draw;
 use super::prose;
-use super::view::{BarView, FigureView, provisional_words};
+use super::view::{FigureView, provisional_words};
 use crate::lab::Points;
 use crate::source::sanitize;
+use base64::Engine as _;
 use serde::Serialize;
+use sha2::{Digest, Sha256};
+use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
+
+/// Sorts and filters the tables of the class page: fixed, allowed by its hash, and not needed to read the page.
+pub(super) const TABLES_SCRIPT: &str = include_str!("../../templates/tables.js");
 
 #[derive(Serialize)]
 pub struct ClassPage {
     page_title: String,
     course: String,
     lab_title: String,
+    script_html: &'static str,
+    /// As a Content-Security-Policy names it: `sha256-…`.
+    script_hash: String,
     facts: Vec<(&'static str, String)>,
+    /// What the statistics are of.
+    counted_words: String,
     plots: Vec<FigureView>,
-    questions: Vec<MeanView>,
+    /// The numbers behind the plot.
+    totals: Vec<CountView>,
+    questions: Vec<ItemView>,
+    criteria: Vec<ItemView>,
+    mistakes: Vec<MistakeView>,
+    /// Explanations that were too many to be kept apart.
+    more_mistakes: usize,
+    classes: Option<ConfusionView>,
+    outcomes: Vec<AttainmentView>,
+    borderline: Option<BorderlineView>,
+    shared: Vec<SharedView>,
+    not_compared: usize,
     review: Vec<ReviewGroup>,
     review_words: String,
     alike_html: String,
@@ -47,21 +72,13 @@ struct IntakeEntryView {
     link: String,
 }
 
-#[derive(Serialize)]
-struct MeanView {
-    number: String,
-    title: String,
-    mean: String,
-    possible: String,
-    bar: BarView,
-}
-
 /// Marks on one criterion that wait for a person.
 #[derive(Serialize)]
 struct ReviewGroup {
     title: String,
     why: String,
     amount: String,
+    count: usize,
     /// Long lists start closed.
     open: bool,
     /// The largest first.
@@ -74,6 +91,9 @@ struct AlikeView {
     /// As `alike:` of the marks file names it; empty for answers on their own.
     id: String,
     amount: String,
+    count: usize,
+    /// Of `count`, how many are not listed.
+    more: usize,
     /// One answer only.
     single: bool,
     /// `1 of 1`, when it is the same for all of the group.
@@ -105,6 +125,7 @@ struct RowView {
     possible: String,
     provisional: String,
     findings: String,
+    to_review: String,
     /// `late`, `handed nothing in`, or nothing.
     status: &'static str,
     cover: String,
@@ -112,19 +133,31 @@ struct RowView {
 
 pub fn page(kit: &ReportKit, summary: &ClassSummary) -> ClassPage {
     let lab = &kit.lab;
-    let totals: Vec<f64> = summary.rows.iter().filter(|r| !r.missing).map(|r| r.earned.as_f64()).collect();
     let possible = lab.questions.iter().map(|q| q.points).sum::<Points>();
-    let figure = distribution(&totals, possible.as_f64());
-    let review = review(kit, &summary.review);
+    let figure = distribution(&summary.totals, possible);
+    let review = review(kit, summary);
     let criteria: BTreeSet<&str> = summary.review.iter().map(|entry| entry.item.as_str()).collect();
+    let waiting: usize = review.iter().map(|group| group.count).sum();
     ClassPage {
         page_title: format!("Class – {}", lab.title),
         course: lab.course.clone(),
         lab_title: lab.title.clone(),
-        facts: facts(summary, &totals, possible),
+        script_html: TABLES_SCRIPT,
+        script_hash: script_hash(),
+        facts: facts(summary, possible),
+        counted_words: class_analysis::counted_words(summary),
         plots: draw(&figure, "figure-distribution").into_iter().collect(),
-        questions: summary.questions.iter().map(|m| mean(kit, m)).collect(),
-        review_words: match summary.review.len() {
+        totals: class_analysis::bars(&figure),
+        questions: class_analysis::questions(lab, &summary.questions),
+        criteria: class_analysis::criteria(lab, &summary.criteria),
+        mistakes: class_analysis::mistakes(lab, &summary.mistakes, summary.counted),
+        more_mistakes: summary.more_mistakes,
+        classes: class_analysis::classes(&summary.classes),
+        outcomes: class_analysis::outcomes(&summary.outcomes),
+        borderline: class_analysis::borderline(lab, &summary.rows),
+        shared: class_analysis::shared(&summary.answers_shared),
+        not_compared: summary.answers_not_compared,
+        review_words: match waiting {
             0 => "No mark waits for a person.".to_owned(),
             1 => "One mark waits for a person.".to_owned(),
             n => format!(
@@ -145,6 +178,11 @@ pub fn page(kit: &ReportKit, summary: &ClassSummary) -> ClassPage {
         rows: summary.rows.iter().map(row).collect(),
         intake: intake(&summary.intake),
     }
+}
+
+fn script_hash() -> String {
+    let digest = Sha256::digest(TABLES_SCRIPT.as_bytes());
+    format!("sha256-{}", base64::engine::general_purpose::STANDARD.encode(digest))
 }
 
 /// Entries of a kind that are listed.
@@ -178,7 +216,7 @@ fn intake_entry(entry: &IntakeEntry) -> IntakeEntryView {
     }
 }
 
-fn facts(summary: &ClassSummary, totals: &[f64], possible: Points) -> Vec<(&'static str, String)> {
+fn facts(summary: &ClassSummary, possible: Points) -> Vec<(&'static str, String)> {
     let handed_in = summary.rows.iter().filter(|r| !r.missing).count();
     let mut facts = vec![("Submissions", handed_in.to_string())];
     for (name, count) in [
@@ -189,14 +227,12 @@ fn facts(summary: &ClassSummary, totals: &[f64], possible: Points) -> Vec<(&'sta
             facts.push((name, count.to_string()));
         }
     }
-    if !totals.is_empty() {
-        let mut sorted = totals.to_vec();
-        sorted.sort_by(f64::total_cmp);
-        let n = sorted.len();
-        let median = (sorted[(n - 1) / 2] + sorted[n / 2]) / 2.0;
-        let mean = sorted.iter().sum::<f64>() / n as f64;
-        facts.push(("Median", format!("{} of {possible}", number(median, 4))));
-        facts.push(("Mean", format!("{} of {possible}", number(mean, 4))));
+    if let Some(middle) = Middle::of(&summary.totals) {
+        facts.push(("Median", format!("{} of {possible}", number(middle.median, 4))));
+        facts.push(("Mean", format!("{} of {possible}", number(middle.mean, 4))));
+        if let Some(deviation) = middle.deviation {
+            facts.push(("Standard deviation", number(deviation, 3)));
+        }
     }
     let unreadable = summary.rows.iter().filter(|r| !r.readable).count();
     if unreadable > 0 {
@@ -207,20 +243,9 @@ fn facts(summary: &ClassSummary, totals: &[f64], possible: Points) -> Vec<(&'sta
     facts
 }
 
-fn mean(kit: &ReportKit, mean: &QuestionMean) -> MeanView {
-    let question = kit.lab.questions.iter().find(|q| q.id == mean.id);
-    let hundredths = if mean.mean.is_finite() { (mean.mean * 100.0).round() as i64 } else { 0 };
-    MeanView {
-        number: question.map_or_else(String::new, |q| q.number.clone()),
-        title: question.map_or_else(|| mean.id.clone(), |q| q.title.clone()),
-        mean: Points(hundredths).to_string(),
-        possible: mean.possible.to_string(),
-        bar: BarView::new(Points(hundredths), Points::ZERO, mean.possible),
-    }
-}
-
 /// Entries of the same criterion and the same reason together, in the lab's order.
-fn review(kit: &ReportKit, entries: &[ReviewEntry]) -> Vec<ReviewGroup> {
+fn review(kit: &ReportKit, summary: &ClassSummary) -> Vec<ReviewGroup> {
+    let entries = &summary.review;
     let mut groups: Vec<(&ReviewEntry, Vec<&ReviewEntry>)> = Vec::new();
     let mut places = BTreeMap::new();
     for entry in entries {
@@ -241,12 +266,15 @@ fn review(kit: &ReportKit, entries: &[ReviewEntry]) -> Vec<ReviewGroup> {
                 Some(q) => format!("{} – {}", q.number, first.title),
                 None => first.title.clone(),
             };
+            let groups = alike(&entries, &summary.review_counts);
+            let count = groups.iter().map(|group| group.count).sum();
             ReviewGroup {
                 title,
                 why: sanitize(&first.why).to_string(),
-                amount: counted(entries.len(), "mark"),
-                open: entries.len() <= OPEN,
-                groups: alike(&entries),
+                amount: counted(count, "mark"),
+                open: count <= OPEN,
+                groups,
+                count,
             }
         })
         .collect()
@@ -256,29 +284,39 @@ fn review(kit: &ReportKit, entries: &[ReviewEntry]) -> Vec<ReviewGroup> {
 const OPEN: usize = 8;
 
 /// Like answers together, by the group's id, so that files may be named as they will.
-fn alike(entries: &[&ReviewEntry]) -> Vec<AlikeView> {
+fn alike(entries: &[&ReviewEntry], counts: &ReviewCounts) -> Vec<AlikeView> {
     let mut groups: BTreeMap<Option<&str>, Vec<&ReviewEntry>> = BTreeMap::new();
     for entry in entries {
         groups.entry(entry.alike.as_deref()).or_default().push(entry);
     }
     let mut groups: Vec<_> = groups.into_iter().collect();
-    groups.sort_by_key(|(id, entries)| (id.is_none(), usize::MAX - entries.len()));
-    groups.into_iter().map(|(id, entries)| alike_view(id, &entries)).collect()
+    let count = |id: Option<&str>, entries: &[&ReviewEntry]| {
+        let key = entries.first().map(|one| (one.item.clone(), one.why.clone(), id.map(str::to_owned)));
+        let all = key.and_then(|key| counts.get(&key)).copied().unwrap_or(0);
+        all.max(entries.len())
+    };
+    groups.sort_by_key(|(id, entries)| (id.is_none(), Reverse(count(*id, entries))));
+    groups.into_iter().map(|(id, entries)| alike_view(id, &entries, count(id, &entries))).collect()
 }
 
-fn alike_view(id: Option<&str>, entries: &[&ReviewEntry]) -> AlikeView {
+/// Entries by criterion, reason and group, those that are not listed too.
+type ReviewCounts = BTreeMap<(String, String, Option<String>), usize>;
+
+fn alike_view(id: Option<&str>, entries: &[&ReviewEntry], count: usize) -> AlikeView {
     // What is said of one holds for all of a group, and for none of those on their own.
     let first = id.and(entries.first());
     let marks = |entry: &ReviewEntry| format!("{} of {}", entry.earned, entry.possible);
     let same = first.map(|one| marks(one)).filter(|one| entries.iter().all(|entry| marks(entry) == *one));
     AlikeView {
-        single: entries.len() == 1,
+        single: count == 1,
         id: id.unwrap_or_default().to_owned(),
-        amount: counted(entries.len(), "answer"),
+        amount: counted(count, "answer"),
+        count,
+        more: count - entries.len(),
         found: first.map_or_else(String::new, |one| sanitize(&one.found)),
         conflicts: first.map_or_else(Vec::new, |one| one.conflicts.iter().map(|c| sanitize(c)).collect()),
         example: first.map_or_else(String::new, |one| sanitize(&one.example)),
-        open: entries.len() <= OPEN,
+        open: count <= OPEN,
         entries: entries
             .iter()
             .map(|entry| EntryView {
@@ -310,6 +348,10 @@ fn row(row: &ClassRow) -> RowView {
             (false, _) => "not readable".to_owned(),
             (true, 0) => String::new(),
             (true, n) => n.to_string(),
+        },
+        to_review: match row.to_review {
+            0 => String::new(),
+            n => n.to_string(),
         },
         status: match (row.missing, row.late) {
             (true, _) => "handed nothing in",

@@ -1,15 +1,37 @@
+use crate::algebra::Rational;
 use crate::lab::Points;
 use crate::submission::Student;
+use std::collections::BTreeMap;
 
 /// What the class page shows; filled by whoever ran the class.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct ClassSummary {
     /// One a submission, in the order shown.
     pub rows: Vec<ClassRow>,
+    /// Submissions that the statistics are of: handed in, and at least one criterion could be judged.
+    pub counted: u64,
+    /// (points earned in the questions, how many of these submissions earned them), the lowest first.
+    pub totals: Vec<(Points, u64)>,
     /// One a question, in the lab's order.
-    pub questions: Vec<QuestionMean>,
-    /// Marks that wait for a person, in the order they are best looked at.
+    pub questions: Vec<ItemStatistics>,
+    /// One a criterion, in the lab's order.
+    pub criteria: Vec<ItemStatistics>,
+    /// What explains wrong transfer functions, the most frequent first.
+    pub mistakes: Vec<MistakeMade>,
+    /// Explanations that were too many to be kept apart.
+    pub more_mistakes: usize,
+    /// Classes of nonlinearities, as answered and as right.
+    pub classes: Confusion,
+    /// One an outcome that is assessed.
+    pub outcomes: Vec<Attainment>,
+    /// Unusual wrong answers that several submissions share.
+    pub answers_shared: Vec<AnswersShared>,
+    /// Wrong answers that could not be compared, being too many.
+    pub answers_not_compared: usize,
+    /// Marks that wait for a person, in the order they are best looked at; of many like ones the first.
     pub review: Vec<ReviewEntry>,
+    /// How many there are, where they are more than are listed, by (criterion, reason, group).
+    pub review_counts: BTreeMap<(String, String, Option<String>), usize>,
     /// What is to be known of how it was handed in.
     pub intake: Vec<IntakeEntry>,
 }
@@ -52,6 +74,8 @@ pub struct ClassRow {
     /// Of the earned points, how many wait for a person.
     pub provisional: Points,
     pub findings: usize,
+    /// Criteria that wait for a person.
+    pub to_review: usize,
     /// Sum of the cover sheet; `None` while a box is empty.
     pub cover_total: Option<Points>,
     /// False when the file as a whole could not be read.
@@ -62,14 +86,124 @@ pub struct ClassRow {
     pub late: bool,
 }
 
-/// How the class did in one question.
+/// How the class did in one criterion or question. What could not be judged, or waits for a person, counts as it stands.
 #[derive(Clone, Debug, PartialEq)]
-pub struct QuestionMean {
-    /// The question's id.
+pub struct ItemStatistics {
     pub id: String,
-    /// Mean points earned, over all submissions.
-    pub mean: f64,
     pub possible: Points,
+    /// Mean points earned; `None` for an empty class.
+    pub mean: Option<f64>,
+    /// Mean points as a share of those possible, 0..=1.
+    pub facility: Option<f64>,
+    /// Correlation with the points earned elsewhere, −1..=1; `None` where one of the two is the same for all.
+    pub discrimination: Option<f64>,
+    /// Facility among the best 27 % less that among the weakest, −1..=1.
+    pub upper_less_lower: Option<f64>,
+    /// Submissions by verdict; of criteria only.
+    pub right: usize,
+    pub partly: usize,
+    pub wrong: usize,
+    pub blank: usize,
+    /// Unreadable or unmarked: a person has to look.
+    pub open: usize,
+    /// Marks to be confirmed; of criteria only.
+    pub provisional: usize,
+}
+
+/// Submissions with something in common: how many, and who the first are.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub struct People {
+    pub count: usize,
+    pub first: Vec<Person>,
+}
+
+/// A submission: how it is named, and where its report is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Person {
+    /// Hostile until escaped.
+    pub name: String,
+    /// Relative, percent-encoded.
+    pub link: String,
+}
+
+impl People {
+    /// More are counted, not named.
+    pub const MOST: usize = 50;
+
+    pub fn add(&mut self, name: &str, link: &str) {
+        self.count += 1;
+        if self.first.len() < Self::MOST {
+            self.first.push(Person { name: name.to_owned(), link: link.to_owned() });
+        }
+    }
+}
+
+/// A mistake that explains wrong transfer functions of one question.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MistakeMade {
+    /// The question's id.
+    pub question: String,
+    /// Stable; empty for what nothing explains.
+    pub code: String,
+    pub words: String,
+    /// The words are those of one of several like slips.
+    pub for_example: bool,
+    /// Submissions of which it is the only explanation.
+    pub alone: usize,
+    /// Submissions that something else explains as well.
+    pub among_others: usize,
+    pub people: People,
+}
+
+/// How often what was answered where what was right.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub struct Confusion {
+    /// What is right.
+    pub rows: Vec<&'static str>,
+    /// What was answered.
+    pub columns: Vec<&'static str>,
+    /// By row and column.
+    pub counts: Vec<Vec<usize>>,
+}
+
+/// How many students reach an outcome.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Attainment {
+    pub id: String,
+    pub text: String,
+    /// The share of the points that a student should earn.
+    pub target: Option<Rational>,
+    /// Points of all that assesses it.
+    pub possible: Points,
+    pub students: usize,
+    /// Students who earned that share or more.
+    pub reached: usize,
+    /// Students of whom a part waits for a person.
+    pub waiting: usize,
+    /// Mean share of the points earned, 0..=1.
+    pub mean_share: Option<f64>,
+}
+
+/// Submissions that share unusual wrong answers.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct AnswersShared {
+    pub people: People,
+    pub answers: Vec<SharedAnswer>,
+}
+
+/// A wrong answer that several submissions have to the letter.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SharedAnswer {
+    /// The question's number.
+    pub question: String,
+    pub prompt: String,
+    pub field: String,
+    /// As read. Hostile until escaped.
+    pub answer: String,
+    /// Submissions that have it.
+    pub count: usize,
+    /// Submissions with a wrong answer there that nothing explains, these included.
+    pub wrong: usize,
 }
 
 /// A mark that waits for a person.

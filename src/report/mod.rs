@@ -3,6 +3,7 @@
 mod anchor;
 mod answer_key;
 mod answers;
+mod class_analysis;
 mod class_page;
 mod class_summary;
 mod compare_page;
@@ -35,7 +36,10 @@ mod tests;
 mod view;
 
 pub use anchor::{item_anchor, question_anchor};
-pub use class_summary::{ClassRow, ClassSummary, IntakeEntry, IntakeKind, QuestionMean, ReviewEntry};
+pub use class_summary::{
+    AnswersShared, Attainment, ClassRow, ClassSummary, Confusion, IntakeEntry, IntakeKind, ItemStatistics,
+    MistakeMade, People, Person, ReviewEntry, SharedAnswer,
+};
 pub use compare_page::compare_page;
 pub use handout::{HandoutKit, HandoutStudent};
 pub use kit::{ReportError, ReportKit};

@@ -40,7 +40,14 @@ fn reports_stand_alone_and_carry_no_script() {
         if !name.ends_with(".html") {
             continue;
         }
-        let page = String::from_utf8(bytes).expect("UTF-8").to_lowercase();
+        let mut page = String::from_utf8(bytes).expect("UTF-8").to_lowercase();
+        // The class page sorts its tables by a script of fixed text.
+        if name == "index.html" {
+            let script =
+                format!("<script>{}</script>", include_str!("../../templates/tables.js").to_lowercase());
+            assert_eq!(page.matches(&script).count(), 1);
+            page = page.replace(&script, "");
+        }
         for forbidden in [
             "<script",
             "<iframe",

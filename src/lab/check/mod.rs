@@ -4,6 +4,7 @@ mod amounts;
 mod cover;
 mod criteria;
 mod expectations;
+mod grades;
 mod linear;
 mod mistakes;
 #[cfg(test)]
@@ -188,10 +189,7 @@ impl Checker<'_> {
             unresponsive: Vec::new(),
             signals: operating_points::signals(file),
         };
-        let outcomes = file.outcomes.0.iter().map(|(id, text)| {
-            self.id(id, "outcome id");
-            Outcome { id: id.value.clone(), text: text.trim().to_owned() }
-        });
+        let outcomes = file.outcomes.0.iter().map(|(id, outcome)| self.learning_outcome(id, &outcome.0));
         let outcomes: Vec<Outcome> = outcomes.collect();
         let parameters = self.parameters(file);
         let variants = self.variants(file);
@@ -206,6 +204,7 @@ impl Checker<'_> {
         let worth = questions.as_ref().map(|questions| questions.iter().map(|q| q.points).sum());
         let seen = observed.as_ref().map(|rows| rows.iter().map(|row| row.points).sum());
         let cover = self.cover(file.cover.as_ref(), worth, seen);
+        let grades = self.grades(&file.grades, cover.as_ref().map(|cover| cover.total));
         let expectations = self.expectations(&file.expect, &names);
         let list = parameters.as_ref().map(|parameters| parameters.list.as_slice());
         let mistakes = self.mistakes(&file.mistakes, models.as_deref(), list);
@@ -230,6 +229,8 @@ impl Checker<'_> {
             questions,
             observed: observed?,
             cover: cover?,
+            grades: grades?,
+            release: grades::release(&file.release),
             follow_through: given.follow_through,
             mistakes: mistakes?,
             expectations: expectations?,

@@ -1,16 +1,62 @@
+use crate::lab::Points;
 use crate::report::figure::{Axis, Bar, Figure};
 use crate::report::numbers::{counted, number};
 
-/// How many submissions earned how much: `totals` in points, none beyond `possible`.
-pub fn distribution(totals: &[f64], possible: f64) -> Figure {
+/// Where a class stands: the numbers of a list of (points, how many earned them), the lowest first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Middle {
+    pub lowest: f64,
+    pub highest: f64,
+    pub median: f64,
+    pub mean: f64,
+    /// Of a sample, so over n − 1; `None` for one submission.
+    pub deviation: Option<f64>,
+}
+
+impl Middle {
+    /// `None` for nobody.
+    pub fn of(totals: &[(Points, u64)]) -> Option<Self> {
+        let (first, last) = (totals.first()?, totals.last()?);
+        let n: u64 = totals.iter().map(|(_, n)| n).sum();
+        let (mut sum, mut squares) = (0_i128, 0_i128);
+        for (points, n) in totals {
+            let (points, n) = (i128::from(points.0), i128::from(*n));
+            sum += n * points;
+            squares += n * points * points;
+        }
+        let at = |rank: u64| {
+            let mut left = rank;
+            let found = totals.iter().find(|(_, n)| {
+                let here = left < *n;
+                left = left.saturating_sub(*n);
+                here
+            });
+            found.map_or(0.0, |(points, _)| points.as_f64())
+        };
+        let (whole, n) = (i128::from(n), n);
+        Some(Self {
+            lowest: first.0.as_f64(),
+            highest: last.0.as_f64(),
+            median: (at((n - 1) / 2) + at(n / 2)) / 2.0,
+            mean: sum as f64 / 100.0 / n as f64,
+            deviation: (n > 1).then(|| {
+                let squared = (whole * squares - sum * sum) as f64 / (whole * (whole - 1)) as f64;
+                squared.max(0.0).sqrt() / 100.0
+            }),
+        })
+    }
+}
+
+/// How many submissions earned how much, of `totals` as [`Middle::of`] takes them; none beyond `possible`.
+pub fn distribution(totals: &[(Points, u64)], possible: Points) -> Figure {
     const BINS: usize = 15;
-    let top = if possible > 0.0 { possible } else { 1.0 };
+    let top = if possible > Points::ZERO { possible.as_f64() } else { 1.0 };
     let width = bin_width(top, BINS);
     let count = (top / width).ceil().max(1.0) as usize;
-    let mut heights = vec![0_usize; count];
-    for total in totals {
-        let bin = (total / width).floor().clamp(0.0, (count - 1) as f64) as usize;
-        heights[bin] += 1;
+    let mut heights = vec![0_u64; count];
+    for (points, n) in totals {
+        let bin = (points.as_f64() / width).floor().clamp(0.0, (count - 1) as f64) as usize;
+        heights[bin] += n;
     }
     let highest = heights.iter().copied().max().unwrap_or(0).max(1);
     let mut figure = Figure::new(
@@ -24,17 +70,14 @@ pub fn distribution(totals: &[f64], possible: f64) -> Figure {
         .filter(|(_, height)| **height > 0)
         .map(|(i, height)| Bar { from: i as f64 * width, to: (i + 1) as f64 * width, height: *height as f64 })
         .collect();
-    let mut sorted: Vec<f64> = totals.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    figure.summary = match sorted.len() {
-        0 => "No submissions.".to_owned(),
-        n => format!(
-            "{}: lowest {}, median {}, highest {} of {} points.",
-            counted(n, "submission"),
-            number(sorted[0], 4),
-            number((sorted[(n - 1) / 2] + sorted[n / 2]) / 2.0, 4),
-            number(sorted[n - 1], 4),
-            number(possible, 4)
+    figure.summary = match Middle::of(totals) {
+        None => "No submissions.".to_owned(),
+        Some(middle) => format!(
+            "{}: lowest {}, median {}, highest {} of {possible} points.",
+            counted(totals.iter().map(|(_, n)| n).sum::<u64>(), "submission"),
+            number(middle.lowest, 4),
+            number(middle.median, 4),
+            number(middle.highest, 4),
         ),
     };
     figure
@@ -53,10 +96,30 @@ mod tests {
 
     #[test]
     fn every_submission_is_in_one_bar() {
-        let figure = distribution(&[0.0, 45.0, 44.9, 20.0, 20.0], 45.0);
+        let totals = [(0, 1), (2000, 2), (4490, 1), (4500, 1)].map(|(points, n)| (Points(points), n));
+        let figure = distribution(&totals, Points(4500));
         assert!(figure.check().is_ok());
         assert_eq!(figure.bars.iter().map(|b| b.height).sum::<f64>(), 5.0);
         assert_eq!(figure.summary, "5 submissions: lowest 0, median 20, highest 45 of 45 points.");
-        assert!(distribution(&[], 0.0).check().is_ok());
+        assert!(distribution(&[], Points::ZERO).check().is_ok());
+    }
+
+    #[track_caller]
+    fn check(totals: &[(i64, u64)], median: f64, mean: f64, deviation: Option<f64>) {
+        let totals: Vec<_> = totals.iter().map(|(points, n)| (Points(*points), *n)).collect();
+        let got = Middle::of(&totals).unwrap();
+        assert_eq!((got.median, got.mean), (median, mean), "{totals:?}");
+        let near = |got: f64| deviation.is_some_and(|want| (got - want).abs() < 1e-12);
+        assert_eq!(got.deviation.is_some(), deviation.is_some());
+        assert!(got.deviation.is_none_or(near), "{totals:?}: {:?}", got.deviation);
+    }
+
+    #[test]
+    fn the_middle_of_a_class_by_hand() {
+        check(&[(150, 1)], 1.5, 1.5, None);
+        check(&[(100, 1), (200, 1)], 1.5, 1.5, Some(0.5_f64.sqrt()));
+        check(&[(100, 3), (500, 1)], 1.0, 2.0, Some(2.0));
+        check(&[(200, 4)], 2.0, 2.0, Some(0.0));
+        assert_eq!(Middle::of(&[]), None);
     }
 }

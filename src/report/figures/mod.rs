@@ -8,7 +8,7 @@ mod response;
 mod simulation;
 mod tangent;
 
-pub use distribution::distribution;
+pub use distribution::{Middle, distribution};
 pub use nonlinear::{comparison_figure, parting_words};
 pub use pole_zero::{StudentRoots, pole_zero, root_words};
 pub use response::{PreparedResponse, StudentCurves, feature_words, limit_words};

@@ -1,0 +1,344 @@
+//! What a class did, as views: how hard each criterion was, which mistakes were made, how far outcomes are reached, who is near
+//! a boundary, who shares wrong answers.
+
+use super::class_summary::{
+    AnswersShared, Attainment, ClassRow, ClassSummary, Confusion, ItemStatistics, MistakeMade, People,
+};
+use super::figure::Figure;
+use super::numbers::{counted, number};
+use super::prose;
+use super::view::BarView;
+use crate::algebra::to_f64;
+use crate::lab::{LabDefinition, Points};
+use crate::source::sanitize;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// A row behind a bar of a plot.
+#[derive(Serialize)]
+pub struct CountView {
+    range: String,
+    count: String,
+}
+
+#[derive(Serialize)]
+pub struct ItemView {
+    /// The question's number.
+    number: String,
+    title: String,
+    mean: String,
+    possible: String,
+    bar: BarView,
+    facility: String,
+    discrimination: String,
+    upper_less_lower: String,
+    /// Those who earned the points seem to be the weaker ones.
+    doubtful: bool,
+    right: usize,
+    partly: usize,
+    wrong: usize,
+    blank: usize,
+    open: usize,
+    provisional: usize,
+}
+
+#[derive(Serialize)]
+pub struct MistakeView {
+    number: String,
+    words_html: String,
+    for_example: bool,
+    count: usize,
+    share: String,
+    /// `3 of them are explained by something else as well`, or nothing.
+    among_others: String,
+    people: PeopleView,
+}
+
+#[derive(Serialize)]
+pub struct PeopleView {
+    amount: String,
+    first: Vec<PersonView>,
+    more: usize,
+}
+
+#[derive(Serialize)]
+pub struct PersonView {
+    name: String,
+    link: String,
+}
+
+#[derive(Serialize)]
+pub struct ConfusionView {
+    columns: Vec<&'static str>,
+    rows: Vec<ConfusionRow>,
+}
+
+#[derive(Serialize)]
+pub struct ConfusionRow {
+    right: &'static str,
+    /// Whether it is the right one, and how many.
+    cells: Vec<(bool, usize)>,
+}
+
+#[derive(Serialize)]
+pub struct AttainmentView {
+    id: String,
+    text: String,
+    possible: String,
+    mean: String,
+    target: String,
+    reached: String,
+    waiting: String,
+}
+
+#[derive(Serialize)]
+pub struct BorderlineView {
+    /// `1.8 points (2 % of 90)`
+    width: String,
+    rows: Vec<BorderlineRow>,
+    /// Near a boundary, and not listed.
+    more: usize,
+    /// Marks that cannot be held against a boundary yet.
+    waiting: usize,
+}
+
+#[derive(Serialize)]
+pub struct BorderlineRow {
+    name: String,
+    link: String,
+    mark: String,
+    distance: String,
+    /// `below A (85)`
+    side: String,
+    provisional: String,
+}
+
+#[derive(Serialize)]
+pub struct SharedView {
+    people: PeopleView,
+    answers: Vec<SharedAnswerView>,
+}
+
+#[derive(Serialize)]
+pub struct SharedAnswerView {
+    place: String,
+    answer: String,
+    /// `2 of 17 unexplained wrong answers there`
+    among: String,
+}
+
+/// A share in percent of the whole that counts as near a boundary.
+const NEAR_PERCENT: i64 = 2;
+/// Rows of the borderline list.
+const MOST_NEAR: usize = 200;
+/// Groups who share answers that are listed.
+const MOST_SHARED: usize = 100;
+
+/// `The statistics are of 41 submissions; 2 of which nothing could be judged are left out.`
+pub fn counted_words(summary: &ClassSummary) -> String {
+    let handed_in = summary.rows.iter().filter(|row| !row.missing).count() as u64;
+    let missing = summary.rows.len() as u64 - handed_in;
+    let mut words = format!("The statistics are of {}.", counted(summary.counted, "submission"));
+    let left_out = handed_in.saturating_sub(summary.counted);
+    if left_out > 0 {
+        words += &format!(" Left out: {left_out} of which nothing could be judged.");
+    }
+    if missing > 0 {
+        words += &format!(" Who handed nothing in is not counted ({missing}).");
+    }
+    let provisional: usize = summary.criteria.iter().map(|one| one.provisional).sum();
+    let open: usize = summary.criteria.iter().map(|one| one.open).sum();
+    if provisional + open > 0 {
+        words += " Marks to be confirmed, and what could not be judged, count as they stand.";
+    }
+    words
+}
+
+/// The numbers of the bars.
+pub fn bars(figure: &Figure) -> Vec<CountView> {
+    let bars = figure.bars.iter().map(|bar| CountView {
+        range: format!("{} to below {}", number(bar.from, 4), number(bar.to, 4)),
+        count: number(bar.height, 9),
+    });
+    bars.collect()
+}
+
+pub fn questions(lab: &LabDefinition, statistics: &[ItemStatistics]) -> Vec<ItemView> {
+    let named = |one: &ItemStatistics| {
+        let question = lab.questions.iter().find(|question| question.id == one.id);
+        question.map_or_else(|| (String::new(), one.id.clone()), |q| (q.number.clone(), q.title.clone()))
+    };
+    statistics.iter().map(|one| item(named(one), one)).collect()
+}
+
+pub fn criteria(lab: &LabDefinition, statistics: &[ItemStatistics]) -> Vec<ItemView> {
+    let all = lab.questions.iter().flat_map(|q| q.criteria.iter().map(move |criterion| (q, criterion)));
+    let names: BTreeMap<&str, (String, String)> =
+        all.map(|(q, one)| (one.id.as_str(), (q.number.clone(), one.title.clone()))).collect();
+    let named = |one: &ItemStatistics| {
+        names.get(one.id.as_str()).cloned().unwrap_or_else(|| (String::new(), one.id.clone()))
+    };
+    statistics.iter().map(|one| item(named(one), one)).collect()
+}
+
+fn item((number_of, title): (String, String), one: &ItemStatistics) -> ItemView {
+    let hundredths = one.mean.filter(|mean| mean.is_finite()).map_or(0, |mean| (mean * 100.0).round() as i64);
+    ItemView {
+        number: number_of,
+        title,
+        mean: one.mean.map_or_else(|| "–".to_owned(), |_| Points(hundredths).to_string()),
+        possible: one.possible.to_string(),
+        bar: BarView::new(Points(hundredths), Points::ZERO, one.possible),
+        facility: one.facility.map_or_else(|| "–".to_owned(), percent),
+        discrimination: index(one.discrimination),
+        upper_less_lower: index(one.upper_less_lower),
+        doubtful: one.discrimination.is_some_and(|r| r < -0.005),
+        right: one.right,
+        partly: one.partly,
+        wrong: one.wrong,
+        blank: one.blank,
+        open: one.open,
+        provisional: one.provisional,
+    }
+}
+
+/// `0.42`; a dash where it is not defined.
+fn index(value: Option<f64>) -> String {
+    let shown = |value: f64| {
+        let hundredths = (value * 100.0).round() as i64;
+        Points(hundredths).to_string().replace('-', "−")
+    };
+    value.filter(|value| value.is_finite()).map_or_else(|| "–".to_owned(), shown)
+}
+
+/// `72 %`
+fn percent(share: f64) -> String {
+    format!("{:.0}\u{a0}%", 100.0 * share)
+}
+
+pub fn mistakes(lab: &LabDefinition, made: &[MistakeMade], counted_all: u64) -> Vec<MistakeView> {
+    let number_of = |id: &str| {
+        let question = lab.questions.iter().find(|question| question.id == id);
+        question.map_or_else(|| id.to_owned(), |question| question.number.clone())
+    };
+    let view = |one: &MistakeMade| MistakeView {
+        number: number_of(&one.question),
+        words_html: prose::sentences(&sanitize(&one.words)),
+        for_example: one.for_example,
+        count: one.people.count,
+        share: percent(one.people.count as f64 / counted_all.max(1) as f64),
+        among_others: match one.among_others {
+            0 => String::new(),
+            n => format!("{n} explained by something else as well"),
+        },
+        people: people(&one.people),
+    };
+    made.iter().map(view).collect()
+}
+
+fn people(people: &People) -> PeopleView {
+    let first = people.first.iter().map(|one| PersonView {
+        name: sanitize(&one.name.chars().take(80).collect::<String>()),
+        link: one.link.clone(),
+    });
+    PeopleView {
+        amount: counted(people.count, "submission"),
+        first: first.collect(),
+        more: people.count.saturating_sub(people.first.len()),
+    }
+}
+
+/// `None` where no class is asked for.
+pub fn classes(table: &Confusion) -> Option<ConfusionView> {
+    let rows = table.rows.iter().zip(&table.counts).map(|(right, counts)| ConfusionRow {
+        right,
+        cells: table.columns.iter().zip(counts).map(|(answered, n)| (answered == right, *n)).collect(),
+    });
+    let rows: Vec<ConfusionRow> = rows.collect();
+    (!rows.is_empty()).then(|| ConfusionView { columns: table.columns.clone(), rows })
+}
+
+pub fn outcomes(outcomes: &[Attainment]) -> Vec<AttainmentView> {
+    let view = |one: &Attainment| AttainmentView {
+        id: one.id.clone(),
+        text: one.text.clone(),
+        possible: one.possible.to_string(),
+        mean: one.mean_share.map_or_else(|| "–".to_owned(), percent),
+        target: one.target.as_ref().map_or_else(String::new, |target| percent(to_f64(target))),
+        reached: match (&one.target, one.students) {
+            (None, _) => String::new(),
+            (Some(_), 0) => "–".to_owned(),
+            (Some(_), all) => {
+                format!("{} ({} of {all})", percent(one.reached as f64 / all as f64), one.reached)
+            }
+        },
+        waiting: match one.waiting {
+            0 => String::new(),
+            n => format!("of {}, a part waits for a person", counted(n, "student")),
+        },
+    };
+    outcomes.iter().map(view).collect()
+}
+
+/// Marks near the boundary of a grade, the nearest first; `None` where the lab states no grades.
+pub fn borderline(lab: &LabDefinition, rows: &[ClassRow]) -> Option<BorderlineView> {
+    if lab.grades.is_empty() {
+        return None;
+    }
+    let total = lab.cover.total;
+    let width = Points(total.0 * NEAR_PERCENT / 100);
+    let here = rows.iter().filter(|row| !row.missing);
+    let near = here.clone().filter_map(|row| {
+        let mark = row.cover_total?;
+        let distance = |from: Points| Points((mark.0 - from.0).abs());
+        let nearest = lab.grades.iter().min_by_key(|grade| (distance(grade.from), mark < grade.from))?;
+        let distance = distance(nearest.from);
+        (distance <= width).then(|| {
+            let side = if mark < nearest.from { "below" } else { "above" };
+            let side = if distance == Points::ZERO { "at" } else { side };
+            let side = format!("{side} {} ({})", nearest.name, nearest.from);
+            (distance, mark, side, row)
+        })
+    });
+    let mut near: Vec<_> = near.collect();
+    // Stable: those as near stay in the order of the class.
+    near.sort_by_key(|(distance, ..)| *distance);
+    let more = near.len().saturating_sub(MOST_NEAR);
+    let view = |(distance, mark, side, row): (Points, Points, String, &ClassRow)| BorderlineRow {
+        name: names(row),
+        link: row.report.clone(),
+        mark: mark.to_string(),
+        distance: distance.to_string(),
+        side,
+        provisional: super::view::provisional_words(row.provisional),
+    };
+    Some(BorderlineView {
+        width: format!("{} ({NEAR_PERCENT}\u{a0}% of {total})", counted(width, "point")),
+        rows: near.into_iter().take(MOST_NEAR).map(view).collect(),
+        more,
+        waiting: here.filter(|row| row.cover_total.is_none()).count(),
+    })
+}
+
+/// Names of the students, ids where there are none.
+fn names(row: &ClassRow) -> String {
+    let names = row.students.iter().map(|one| if one.name.trim().is_empty() { &one.id } else { &one.name });
+    let names = names.map(|name| name.chars().take(80).collect::<String>());
+    sanitize(&names.collect::<Vec<_>>().join(", "))
+}
+
+pub fn shared(groups: &[AnswersShared]) -> Vec<SharedView> {
+    let view = |group: &AnswersShared| SharedView {
+        people: people(&group.people),
+        answers: group
+            .answers
+            .iter()
+            .map(|one| SharedAnswerView {
+                place: format!("{}, {}", one.question, one.prompt),
+                answer: sanitize(&one.answer),
+                among: format!("{} of {} wrong answers there that nothing explains", one.count, one.wrong),
+            })
+            .collect(),
+    };
+    groups.iter().take(MOST_SHARED).map(view).collect()
+}
