@@ -22,10 +22,10 @@ for (const table of document.querySelectorAll("table.sortable")) {
         const sign = now === "ascending" ? 1 : -1;
         sorted.sort((one, two) => {
           const [a, b] = [text(one, column), text(two, column)];
-          if (!numeric) return sign * a.localeCompare(b, undefined, { numeric: true });
+          if (!numeric) return sign * a.localeCompare(b, "en", { numeric: true });
           const [x, y] = [amount(a), amount(b)];
           // What is no number comes last, whichever way.
-          if (Number.isNaN(x) || Number.isNaN(y)) return Number.isNaN(x) - Number.isNaN(y);
+          if (x !== x || y !== y) return (x !== x) - (y !== y);
           return sign * (x - y);
         });
       }

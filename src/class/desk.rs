@@ -1,6 +1,6 @@
 use super::fingerprint::{Fingerprint, fingerprint};
 use super::intake::{AnswerFile, NotRead, answers_another_lab, handed_in, settle_people, student_records};
-use super::kept::{Entry, EntryPart, Kept, report_is_there};
+use super::kept::{Entry, EntryPart, Kept, Pages, report_is_there};
 use super::marked::{Marked, our_failure};
 use super::new_file::NewFile;
 use super::numbers::{Bench, Benches, Numbers, WithoutNumbers, numbers};
@@ -10,6 +10,7 @@ use crate::grading::{
     Catalogue, HandMarks, HandMarksFile, MemberCard, Scorecard, grade, grade_beside_members,
     grade_without_numbers, leave_to_a_person,
 };
+use crate::lab::Release;
 use crate::source::{Finding, Severity, sanitize};
 use crate::submission::{AnswerSheet, AttachmentError, Attachments, Student, Submission};
 use rayon::prelude::*;
@@ -242,17 +243,17 @@ impl Desk<'_> {
 
     /// In the order given. Submissions with the same numbers are marked one after another, so that what these need is at hand.
     ///
-    /// With each its fingerprint of the report.
-    pub fn mark_all(&self, named: Vec<Named<'_>>) -> Result<Vec<(Marked, String)>, ClassError> {
+    /// With each the fingerprints of its reports.
+    pub fn mark_all(&self, named: Vec<Named<'_>>) -> Result<Vec<(Marked, Pages)>, ClassError> {
         let mut numbered: Vec<(usize, Named<'_>)> = named.into_iter().enumerate().collect();
         numbered.sort_by(|(_, one), (_, two)| one.numbers.cmp(&two.numbers));
         let marked = numbered.into_par_iter().map(|(place, named)| Ok((place, self.mark_and_write(named)?)));
-        let mut marked: Vec<(usize, (Marked, String))> = marked.collect::<Result<_, ClassError>>()?;
+        let mut marked: Vec<(usize, (Marked, Pages))> = marked.collect::<Result<_, ClassError>>()?;
         marked.sort_by_key(|(place, _)| *place);
         Ok(marked.into_iter().map(|(_, marked)| marked).collect())
     }
 
-    fn mark_and_write(&self, named: Named<'_>) -> Result<(Marked, String), ClassError> {
+    fn mark_and_write(&self, named: Named<'_>) -> Result<(Marked, Pages), ClassError> {
         let Named { mut submission, numbers, file, report } = named;
         let job = self.job;
         // Members of a group that are still together were given the same.
@@ -288,7 +289,9 @@ impl Desk<'_> {
             (_, Some(Ok(bench))) => &bench.kit,
             _ => self.without.kit(job.kit),
         };
-        let page = match catch_unwind(AssertUnwindSafe(|| kit.student_page(&submission, &scorecard))) {
+        let mut page = |release| match catch_unwind(AssertUnwindSafe(|| {
+            kit.released_page(&submission, &scorecard, release)
+        })) {
             Ok(page) => page,
             Err(_) => {
                 failed = true;
@@ -297,7 +300,16 @@ impl Desk<'_> {
                     .to_owned()
             }
         };
-        NewFile::create(job.out.join(&report), &self.growing)?.write_all(page.as_bytes())?;
+        let write = |report: &str, page: &str| -> Result<String, ClassError> {
+            NewFile::create(job.out.join(report), &self.growing)?.write_all(page.as_bytes())?;
+            Ok(fingerprint(page))
+        };
+        let mut pages = Pages { report: write(&report, &page(job.release))?, instructor: None };
+        if job.release != Release::ALL {
+            let full = report.replacen("reports/", "instructor/", 1);
+            let written = write(&full, &page(Release::ALL))?;
+            pages.instructor = Some((full, written));
+        }
         let marked = Marked {
             parameters: numbers.values(job.lab),
             variant: numbers.variant().cloned(),
@@ -307,9 +319,10 @@ impl Desk<'_> {
             submission,
             scorecard,
             report,
+            instructor: pages.instructor.as_ref().map(|(path, _)| path.clone()),
             failed,
         };
-        Ok((marked, fingerprint(page)))
+        Ok((marked, pages))
     }
 
     /// Errors: what does not work with these numbers.

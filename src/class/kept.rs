@@ -54,6 +54,9 @@ pub struct EntryPart {
     pub report: String,
     /// Fingerprint of the report.
     pub page: String,
+    /// The instructor's edition and its fingerprint, where there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub instructor: Option<(String, String)>,
 }
 
 impl Kept {
@@ -106,10 +109,20 @@ impl Kept {
             let mut text = String::new();
             let _ = file.seek(SeekFrom::Start(0)).and_then(|_| file.read_to_string(&mut text));
             let entries = text.lines().filter_map(|line| serde_json::from_str::<Entry>(line).ok());
-            entries.flat_map(|entry| entry.parts).map(|part| (part.report, part.page)).collect::<Vec<_>>()
+            let parts = entries.flat_map(|entry| entry.parts);
+            parts
+                .flat_map(|part| [(part.report, part.page)].into_iter().chain(part.instructor))
+                .collect::<Vec<_>>()
         });
         entries.into_iter()
     }
+}
+
+/// Fingerprints of a report, and of the instructor's edition where there is one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Pages {
+    pub report: String,
+    pub instructor: Option<(String, String)>,
 }
 
 /// The records that an entry points into.
@@ -137,7 +150,9 @@ impl KeptRecords<'_> {
 
 /// Whether the report of `part` lies in `out` as it was written.
 pub fn report_is_there(out: &Path, part: &EntryPart) -> bool {
+    let full = part.instructor.as_ref();
     is_as_it_was(&out.join(&part.report), &part.page)
+        && full.is_none_or(|(path, page)| is_as_it_was(&out.join(path), page))
 }
 
 /// Whether the file at `path` still has this fingerprint.

@@ -17,6 +17,8 @@ pub struct Marked {
     pub students: Vec<StudentRecord>,
     /// The report, relative to the output folder: `reports/EE-001.html`.
     pub report: String,
+    /// The instructor's edition, where the report withholds something: `instructor/EE-001.html`.
+    pub instructor: Option<String>,
     /// (parameter, value as typed) it was marked by; `None` where everyone has the lab's own, empty when it is not known whose
     /// it is.
     pub parameters: Option<Vec<(String, String)>>,

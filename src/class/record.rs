@@ -63,6 +63,9 @@ pub struct Record {
     pub findings: Vec<FindingRecord>,
     /// Relative to the output folder, percent-encoded.
     pub report: String,
+    /// The same with all there is to say, for the instructor; only where the report withholds something.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub instructor: Option<String>,
     /// False when the file as a whole could not be read.
     #[serde(default = "yes")]
     pub readable: bool,
@@ -341,6 +344,7 @@ impl Record {
                 .map(|finding| FindingRecord::of(finding, position(finding.span)))
                 .collect(),
             report: marked.report.clone(),
+            instructor: marked.instructor.clone(),
             readable: submission.readable,
             failed: marked.failed,
         }
@@ -431,9 +435,15 @@ impl Record {
             ledger: LedgerRecord::default(),
             findings: Vec::new(),
             report: String::new(),
+            instructor: None,
             readable: true,
             failed: false,
         }
+    }
+
+    /// The report for the instructor: the students' own where it withholds nothing.
+    pub fn full_report(&self) -> &str {
+        self.instructor.as_deref().unwrap_or(&self.report)
     }
 
     /// Why no mark of it may be passed on before a person has said more; empty for most.

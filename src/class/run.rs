@@ -3,7 +3,7 @@ use super::desk::{Desk, Found, Named, Part, SourceFile};
 use super::fingerprint::Fingerprint;
 use super::gradebook::Gradebook;
 use super::intake::{Intake, UniqueNames};
-use super::kept::{Kept, is_as_it_was, run_fingerprint};
+use super::kept::{Kept, Pages, is_as_it_was, run_fingerprint};
 use super::marked::Marked;
 use super::new_file::NewFile;
 use super::numbers::{Benches, WithoutNumbers};
@@ -17,7 +17,7 @@ use super::students_seen::StudentsSeen;
 use super::without_marks::{Absentees, superseded_records};
 use super::workplace::Workplace;
 use crate::grading::{Catalogue, HandMarksFile};
-use crate::lab::LabDefinition;
+use crate::lab::{LabDefinition, Release};
 use crate::reference::Reference;
 use crate::report::{ReportError, ReportKit};
 use crate::source::Finding;
@@ -43,6 +43,8 @@ pub struct ClassJob<'a> {
     pub roster: Option<&'a Roster>,
     pub intake: &'a Intake,
     pub out: &'a Path,
+    /// What students get to see in their reports.
+    pub release: Release,
     /// Worker threads; 0 is one a core.
     pub threads: usize,
     /// Marks everything again, whatever earlier runs left.
@@ -85,7 +87,10 @@ pub fn grade_class(
     progress: &dyn Fn(Progress) -> ControlFlow<()>,
 ) -> Result<Outcome, ClassError> {
     let reports = job.out.join("reports");
-    std::fs::create_dir_all(&reports).map_err(|error| ClassError::Write { path: reports, error })?;
+    let withheld = (job.release != Release::ALL).then(|| job.out.join("instructor"));
+    for folder in withheld.into_iter().chain([reports]) {
+        std::fs::create_dir_all(&folder).map_err(|error| ClassError::Write { path: folder, error })?;
+    }
     let workplace = Workplace::open(job.out)?;
     // More threads than submissions marked at a time would only wait.
     let threads = job.threads.min(GROUP);
@@ -127,7 +132,7 @@ pub fn grade_class(
             let report = format!("reports/{}.html", names.claim(&report_stem(&part)));
             slips.push(settle(&desk, part, findings, report, &mut to_mark));
         }
-        let (mut marked, pages): (Vec<Marked>, Vec<String>) =
+        let (mut marked, pages): (Vec<Marked>, Vec<Pages>) =
             pool.install(|| desk.mark_all(to_mark))?.into_iter().unzip();
         pool.install(|| others.point_out(job, &mut marked));
         let mut fresh = marked.iter().zip(pages);
@@ -135,9 +140,9 @@ pub fn grade_class(
             let written = match slip.kept {
                 Some(kept) => kept,
                 None => {
-                    let Some((marked, page)) = fresh.next() else { continue };
+                    let Some((marked, pages)) = fresh.next() else { continue };
                     let record = Record::of(marked, job.lab);
-                    Written { line: record.to_line()?, record, page, kept: false }
+                    Written { line: record.to_line()?, record, pages, kept: false }
                 }
             };
             records.add(&slip.source, slip.said, &written)?;
@@ -222,7 +227,8 @@ fn settle<'a>(
     };
     match again.unwrap_or(part.found) {
         Found::Kept { part, record, line } => {
-            let written = Written { record: *record, line, page: part.page, kept: true };
+            let pages = Pages { report: part.page, instructor: part.instructor };
+            let written = Written { record: *record, line, pages, kept: true };
             Slip { source, said, kept: Some(written) }
         }
         Found::Read { mut submission, numbers } => {
@@ -242,8 +248,8 @@ fn rests_on(job: &ClassJob<'_>, others: &Others) -> Option<Fingerprint> {
     let lab = &job.lab.text;
     let alike = job.marks.map(|marks| format!("{:?}", marks.alike()));
     let roster = format!("{:?}", job.roster);
-    let class = others.fingerprint();
-    run_fingerprint(&[&lab.name, &lab.text, &alike.unwrap_or_default(), &roster, &class])
+    let (class, release) = (others.fingerprint(), format!("{:?}", job.release));
+    run_fingerprint(&[&lab.name, &lab.text, &alike.unwrap_or_default(), &roster, &class, &release])
 }
 
 /// Removes reports of answers that are not there any more, if they are as polemark wrote them.
@@ -251,7 +257,10 @@ fn rests_on(job: &ClassJob<'_>, others: &Others) -> Option<Fingerprint> {
 /// How many.
 fn remove_old_reports(out: &Path, kept: &Kept, statistics: &Statistics) -> usize {
     let removed = kept.reports().filter(|(report, page)| {
-        let plain = report.strip_prefix("reports/").is_some_and(|name| !name.contains(['/', '\\']));
+        let plain = report
+            .strip_prefix("reports/")
+            .or(report.strip_prefix("instructor/"))
+            .is_some_and(|name| !name.contains(['/', '\\']));
         let path = out.join(report);
         plain
             && !statistics.has_report(report)

@@ -1,6 +1,6 @@
 use super::desk::SourceFile;
 use super::fingerprint::fingerprint;
-use super::kept::{Entry, EntryPart};
+use super::kept::{Entry, EntryPart, Pages};
 use super::record::Record;
 use super::run::{ClassError, ClassJob};
 use super::workplace::{KEPT, Workplace};
@@ -8,11 +8,11 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// A record and its line, and the fingerprint of the report.
+/// A record and its line, and the fingerprints of its reports.
 pub struct Written {
     pub record: Record,
     pub line: String,
-    pub page: String,
+    pub pages: Pages,
     /// An earlier run wrote it.
     pub kept: bool,
 }
@@ -50,7 +50,8 @@ impl<'a> RunRecords<'a> {
             line: fingerprint(&written.line),
             said,
             report: written.record.report.clone(),
-            page: written.page.clone(),
+            page: written.pages.report.clone(),
+            instructor: written.pages.instructor.clone(),
         };
         self.at += length + 1;
         self.kept += usize::from(written.kept);

@@ -82,7 +82,7 @@ impl Statistics {
         }
         self.total += record.total.earned;
         self.student_ids.extend(record.students.iter().map(|s| s.id.clone()));
-        self.reports.insert(record.report.clone());
+        self.reports.extend([&record.report].into_iter().chain(&record.instructor).cloned());
         self.outcome.submissions += 1;
         self.outcome.possible = record.total.possible.as_f64();
         self.outcome.unreadable += usize::from(!record.readable);
@@ -103,7 +103,7 @@ impl Statistics {
 
     fn analyse(&mut self, record: &Record) {
         self.items.add(record);
-        self.mistakes.add(record, &names(record), &record.report);
+        self.mistakes.add(record, &names(record), record.full_report());
         self.classes.add(record);
         self.outcomes.add(record);
         // Members of a group with reports of their own have the same answers.
@@ -165,7 +165,12 @@ impl Statistics {
                 true => record.file.clone(),
                 false => names(record),
             };
-            self.intake.push(IntakeEntry { who, words: said.join(" "), link: record.report.clone(), kind });
+            self.intake.push(IntakeEntry {
+                who,
+                words: said.join(" "),
+                link: record.full_report().to_owned(),
+                kind,
+            });
         }
     }
 
@@ -225,7 +230,7 @@ fn class_row(record: &Record) -> ClassRow {
     ClassRow {
         students: students(record),
         file: record.file.clone(),
-        report: record.report.clone(),
+        report: record.full_report().to_owned(),
         numbers: numbers_words(record),
         earned: record.total.earned,
         possible: record.total.possible,
@@ -233,6 +238,7 @@ fn class_row(record: &Record) -> ClassRow {
         findings: record.findings.len(),
         to_review: record.to_review().count(),
         cover_total: record.cover_total,
+        mark: record.mark.as_ref().map(|mark| mark.earned),
         readable: record.readable,
         missing: record.status == Status::Missing,
         late: record.is_late(),
@@ -319,7 +325,7 @@ fn entry(
         student,
         item: item.id.clone(),
         title: titles.get(&item.id).unwrap_or(&item.id).clone(),
-        link: format!("{}#{}", record.report, item_anchor(&item.id)),
+        link: format!("{}#{}", record.full_report(), item_anchor(&item.id)),
         why: String::new(),
         earned: item.earned,
         possible: item.possible,

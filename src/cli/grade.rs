@@ -5,7 +5,7 @@ use super::outcome::{
 use crate::class::{ClassJob, Outcome, Standing, compare, find_answer_files, grade_class};
 use crate::grading::Catalogue;
 use crate::grading::HandMarksFile;
-use crate::lab::LabDefinition;
+use crate::lab::{LabDefinition, Release};
 use crate::report::ReportKit;
 use crate::source::{Severity, SourceText, decode_within, sanitize};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -37,6 +37,10 @@ pub struct Arguments {
     /// is pointed out, and who handed nothing in gets a row.
     #[arg(long, value_name = "FILE")]
     roster: Option<PathBuf>,
+    /// What students get to see in reports/, in place of what the lab says: `marks,feedback`. Where that is not all, instructor/
+    /// has the full reports; `nothing` shows the answers as they were read.
+    #[arg(long, value_name = "WHAT", value_delimiter = ',')]
+    release: Option<Vec<Shown>>,
     /// Worker threads, 0 for one a core.
     #[arg(long, value_name = "N", default_value_t = 0)]
     threads: usize,
@@ -50,6 +54,15 @@ pub struct Arguments {
     /// End with exit code 1 when a file could not be read.
     #[arg(long)]
     strict: bool,
+}
+
+/// A part of a report.
+#[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Shown {
+    Marks,
+    Feedback,
+    Solutions,
+    Nothing,
 }
 
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
@@ -73,6 +86,11 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         roster: roster.as_ref(),
         intake: &intake,
         out: &arguments.out,
+        release: arguments.release.as_deref().map_or(lab.release, |shown| Release {
+            marks: shown.contains(&Shown::Marks),
+            feedback: shown.contains(&Shown::Feedback),
+            solutions: shown.contains(&Shown::Solutions),
+        }),
         threads: arguments.threads,
         from_scratch: arguments.from_scratch,
     };

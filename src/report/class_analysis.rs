@@ -289,7 +289,7 @@ pub fn borderline(lab: &LabDefinition, rows: &[ClassRow]) -> Option<BorderlineVi
     let width = Points(total.0 * NEAR_PERCENT / 100);
     let here = rows.iter().filter(|row| !row.missing);
     let near = here.clone().filter_map(|row| {
-        let mark = row.cover_total?;
+        let mark = row.mark?;
         let distance = |from: Points| Points((mark.0 - from.0).abs());
         let nearest = lab.grades.iter().min_by_key(|grade| (distance(grade.from), mark < grade.from))?;
         let distance = distance(nearest.from);
@@ -310,13 +310,13 @@ pub fn borderline(lab: &LabDefinition, rows: &[ClassRow]) -> Option<BorderlineVi
         mark: mark.to_string(),
         distance: distance.to_string(),
         side,
-        provisional: super::view::provisional_words(row.provisional),
+        provisional: row.provisional.to_string(),
     };
     Some(BorderlineView {
         width: format!("{} ({NEAR_PERCENT}\u{a0}% of {total})", counted(width, "point")),
         rows: near.into_iter().take(MOST_NEAR).map(view).collect(),
         more,
-        waiting: here.filter(|row| row.cover_total.is_none()).count(),
+        waiting: here.filter(|row| row.mark.is_none()).count(),
     })
 }
 

@@ -78,6 +78,8 @@ pub struct ClassRow {
     pub to_review: usize,
     /// Sum of the cover sheet; `None` while a box is empty.
     pub cover_total: Option<Points>,
+    /// What counts in the end: that sum with what was added or taken by rule; `None` while a part waits for a person.
+    pub mark: Option<Points>,
     /// False when the file as a whole could not be read.
     pub readable: bool,
     /// On the roster, and handed nothing in.

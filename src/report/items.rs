@@ -74,7 +74,8 @@ fn view(
         _ => Vec::new(),
     };
     // The reason says what the words were taken for; that is repeated only to tell quotations apart.
-    let labelled = quotes.iter().any(|q| (q.stance, &q.concept) != (quotes[0].stance, &quotes[0].concept));
+    let labelled = quotes.iter().all(|q| !q.concept.is_empty())
+        && quotes.iter().any(|q| (q.stance, &q.concept) != (quotes[0].stance, &quotes[0].concept));
     let credited = item.follow_through.as_ref().is_some_and(|follow| follow.credited);
     let verdict = match item.verdict {
         Verdict::Right if credited => VerdictView::follows(kept_words(item)),

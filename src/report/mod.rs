@@ -28,6 +28,7 @@ mod pictures;
 mod places;
 pub mod prose;
 mod quotes;
+mod released;
 mod student;
 pub mod svg;
 mod tangent;

@@ -77,6 +77,8 @@ fn lesson(lab: &LabDefinition, scorecard: &Scorecard) -> Option<String> {
         _ => prose::sentences(&sanitize(&place.item.evidence.reason)),
     };
     let mut words = format!("Look first at {}. {words}", link(&question_link(place.question)));
+    // Reasons that are not released leave nothing.
+    words.truncate(words.trim_end().len());
     let charged = charged(scorecard, &place);
     let kept = kept(lab, scorecard, &place);
     words += &match (charged > Points::ZERO, kept) {

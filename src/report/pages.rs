@@ -2,12 +2,18 @@ use super::class_summary::ClassSummary;
 use super::kit::{self, ReportKit};
 use super::{answer_key, class_page, student};
 use crate::grading::Scorecard;
+use crate::lab::Release;
 use crate::submission::Submission;
 
 impl ReportKit {
-    /// The report of one submission, one self-contained HTML file.
+    /// The report of one submission, one self-contained HTML file, with all there is to say.
     pub fn student_page(&self, submission: &Submission, scorecard: &Scorecard) -> String {
-        self.render("student.html", &student::page(self, submission, scorecard))
+        self.released_page(submission, scorecard, Release::ALL)
+    }
+
+    /// The same with no more than is released.
+    pub fn released_page(&self, submission: &Submission, scorecard: &Scorecard, release: Release) -> String {
+        self.render("student.html", &student::page(self, submission, scorecard, release))
     }
 
     /// The answer key: from the equations to every reference answer.

@@ -5,13 +5,15 @@ use super::given::{self, GivenView};
 use super::kit::{QuestionKit, ReportKit};
 use super::ledger::{self, LedgerView};
 use super::prose;
+use super::released::released;
 use super::view::{
     AnswerView, BoxView, DiagnosisView, FigureView, FindingView, ItemGroup, LevelView, ObservedView,
     OutcomeView, TallyView, VerdictView,
 };
 use super::{conflicts, items, opening};
+use crate::english::{capitalized, listed};
 use crate::grading::{Adjustment, Scorecard, Tally};
-use crate::lab::{LabDefinition, ObservedRow, Points, Question};
+use crate::lab::{LabDefinition, ObservedRow, Points, Question, Release};
 use crate::source::{Finding, SourceText, sanitize};
 use crate::submission::{AnswerValue, AnsweredIn, Submission};
 use serde::Serialize;
@@ -19,6 +21,12 @@ use serde::Serialize;
 #[derive(Serialize)]
 pub struct StudentPage {
     page_title: String,
+    /// What is shown.
+    marks: bool,
+    feedback: bool,
+    solutions: bool,
+    /// What is not, in a sentence; empty when all is.
+    withheld: String,
     course: String,
     lab_title: String,
     students: Vec<StudentView>,
@@ -71,8 +79,15 @@ struct QuestionView {
 /// More findings than this are counted, not shown.
 const MOST_FINDINGS: usize = 60;
 
-pub fn page(kit: &ReportKit, submission: &Submission, scorecard: &Scorecard) -> StudentPage {
+pub fn page(
+    kit: &ReportKit,
+    submission: &Submission,
+    scorecard: &Scorecard,
+    release: Release,
+) -> StudentPage {
     let lab = &kit.lab;
+    let scorecard = &released(scorecard, lab, release);
+    let Release { marks, feedback, solutions } = release;
     let students = students(submission);
     let names: Vec<_> = students.iter().map(|s| s.name.as_str()).collect();
     let questions = lab.questions.iter().zip(&kit.questions);
@@ -81,9 +96,13 @@ pub fn page(kit: &ReportKit, submission: &Submission, scorecard: &Scorecard) -> 
         course: lab.course.clone(),
         lab_title: lab.title.clone(),
         file: sanitize(&submission.source.name),
-        cover: cover(lab, scorecard),
-        adjustments: scorecard.adjustments.iter().map(adjustment).collect(),
-        mark: (!scorecard.adjustments.is_empty()).then(|| BoxView {
+        marks,
+        feedback,
+        solutions,
+        withheld: withheld(release),
+        cover: cover(lab, scorecard, marks),
+        adjustments: scorecard.adjustments.iter().filter(|_| marks).map(adjustment).collect(),
+        mark: (marks && !scorecard.adjustments.is_empty()).then(|| BoxView {
             title: "Mark".to_owned(),
             earned: scorecard.mark.map(|points| points.to_string()),
             possible: lab.cover.total.to_string(),
@@ -97,12 +116,16 @@ pub fn page(kit: &ReportKit, submission: &Submission, scorecard: &Scorecard) -> 
             "The file as a whole could not be read, so nothing in it could be marked."
         },
         findings: findings(submission),
-        opening_html: if submission.readable { opening::paragraphs(lab, scorecard) } else { Vec::new() },
+        opening_html: if submission.readable && marks {
+            opening::paragraphs(lab, scorecard)
+        } else {
+            Vec::new()
+        },
         total: TallyView::new(&scorecard.total),
-        ledger: ledger::view(lab, scorecard),
+        ledger: if marks && feedback { ledger::view(lab, scorecard) } else { None },
         legend: VerdictView::legend(),
-        questions: questions.map(|(q, kit)| question(lab, q, kit, submission, scorecard)).collect(),
-        observed: lab.observed.iter().map(|row| observed(row, scorecard)).collect(),
+        questions: questions.map(|(q, kit)| question(lab, q, kit, submission, scorecard, release)).collect(),
+        observed: lab.observed.iter().map(|row| observed(row, scorecard, marks)).collect(),
         observed_levels: lab.observed.first().map(level_titles).unwrap_or_default(),
         outcomes: lab
             .outcomes
@@ -110,6 +133,18 @@ pub fn page(kit: &ReportKit, submission: &Submission, scorecard: &Scorecard) -> 
             .map(|o| OutcomeView { id: o.id.clone(), text: o.text.clone() })
             .collect(),
         students,
+    }
+}
+
+/// `Marks and solutions are not released yet.`
+fn withheld(release: Release) -> String {
+    let parts = [(release.marks, "marks"), (release.feedback, "feedback"), (release.solutions, "solutions")];
+    let parts: Vec<String> =
+        parts.iter().filter(|(shown, _)| !shown).map(|(_, name)| (*name).to_owned()).collect();
+    match parts.as_slice() {
+        [] => String::new(),
+        [one] if one == "feedback" => "Feedback is not released yet.".to_owned(),
+        _ => capitalized(&format!("{} are not released yet.", listed(&parts, "and"))),
     }
 }
 
@@ -142,6 +177,7 @@ fn students(submission: &Submission) -> Vec<StudentView> {
 }
 
 const WAITING: &str = "waiting for a person";
+const WITHHELD: &str = "not released";
 
 #[derive(Serialize)]
 struct AdjustmentView {
@@ -157,20 +193,20 @@ fn adjustment(one: &Adjustment) -> AdjustmentView {
     }
 }
 
-fn cover(lab: &LabDefinition, scorecard: &Scorecard) -> Vec<BoxView> {
-    let waiting = WAITING;
+fn cover(lab: &LabDefinition, scorecard: &Scorecard, marks: bool) -> Vec<BoxView> {
+    let waiting = if marks { WAITING } else { WITHHELD };
     let title = |id: &str| {
         lab.cover.rows.iter().find(|row| row.id == id).map_or_else(|| id.to_owned(), |row| row.title.clone())
     };
     let boxes = scorecard.cover.iter().map(|(id, possible, earned)| BoxView {
         title: title(id),
-        earned: earned.map(|p| p.to_string()),
+        earned: earned.filter(|_| marks).map(|p| p.to_string()),
         possible: possible.to_string(),
         waiting,
     });
     let total = BoxView {
         title: "Total".to_owned(),
-        earned: scorecard.cover_total.map(|p| p.to_string()),
+        earned: scorecard.cover_total.filter(|_| marks).map(|p| p.to_string()),
         possible: lab.cover.total.to_string(),
         waiting,
     };
@@ -183,6 +219,7 @@ fn question(
     kit: &QuestionKit,
     submission: &Submission,
     scorecard: &Scorecard,
+    release: Release,
 ) -> QuestionView {
     let score = scorecard.questions.iter().find(|s| s.id == question.id);
     let unscored = Tally { possible: question.points, ..Tally::default() };
@@ -200,6 +237,7 @@ fn question(
             yours_html: answers::yours(answer, &field.prompt, &marks),
             reference_heading: answers::reference_heading(field.kind),
             reference_html: match field.answered_in {
+                _ if !release.solutions => String::new(),
                 AnsweredIn::Letters => format!("{}{}", field.letters_html, field.reference_html),
                 AnsweredIn::Either if answers::has_letters(answer) => {
                     format!("{}{}", field.letters_html, field.reference_html)
@@ -223,8 +261,12 @@ fn question(
         tally: TallyView::new(score.map_or(&unscored, |s| &s.tally)),
         short_answers,
         long_answers,
-        figures: kit.pictures.iter().flat_map(|p| p.for_student(submission)).collect(),
-        remark: kit.remark.clone(),
+        // Each has a reference curve in it.
+        figures: match release.solutions {
+            true => kit.pictures.iter().flat_map(|p| p.for_student(submission)).collect(),
+            false => Vec::new(),
+        },
+        remark: if release.solutions { kit.remark.clone() } else { String::new() },
         items: score.map(|s| items::groups(lab, question, s, scorecard, submission)).unwrap_or_default(),
         diagnosis: score
             .and_then(|s| s.items.iter().find_map(|i| i.diagnosis.as_ref()))
@@ -291,8 +333,9 @@ fn excerpt(source: &SourceText, start: usize, end: usize) -> (String, String) {
     (line, format!("{}{}", " ".repeat(lead.chars().count() + kept), "^".repeat(marked)))
 }
 
-fn observed(row: &ObservedRow, scorecard: &Scorecard) -> ObservedView {
-    let earned = scorecard.observed.iter().find(|(id, _)| *id == row.id).and_then(|(_, points)| *points);
+fn observed(row: &ObservedRow, scorecard: &Scorecard, marks: bool) -> ObservedView {
+    let given = scorecard.observed.iter().find(|(id, _)| *id == row.id).and_then(|(_, points)| *points);
+    let earned = given.filter(|_| marks);
     let within = |from: Points, to: Points| earned.is_some_and(|p| (from..=to).contains(&p));
     ObservedView {
         title: row.title.clone(),
@@ -311,7 +354,7 @@ fn observed(row: &ObservedRow, scorecard: &Scorecard) -> ObservedView {
             })
             .collect(),
         earned: earned.map(|p| p.to_string()),
-        waiting: WAITING,
+        waiting: if marks { WAITING } else { WITHHELD },
         possible: row.points.to_string(),
     }
 }

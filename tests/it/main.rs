@@ -10,6 +10,7 @@ mod class_marks;
 mod cli;
 mod conflicts;
 mod ctms;
+mod editions;
 mod exports;
 mod hard_polynomials;
 mod hard_responses;
