@@ -358,6 +358,6 @@ fn row(row: &ClassRow) -> RowView {
             (false, true) => "late",
             (false, false) => "",
         },
-        cover: row.cover_total.map_or_else(|| "waiting".to_owned(), |p| p.to_string()),
+        cover: row.mark.map_or_else(|| "waiting".to_owned(), |p| p.to_string()),
     }
 }

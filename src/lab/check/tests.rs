@@ -97,6 +97,29 @@ fn a_wrong_lab_says_where_and_what_to_do() {
         assert_eq!(findings(&text), [expected], "`{old}` → `{new}`");
     }
 
+    // Grades and targets.
+    check(
+        "cover:\n",
+        "grades:\n  - {name: A, from: 101}\ncover:\n",
+        "101",
+        "the grade `A` begins at 101 points, above the total",
+        "",
+    );
+    check(
+        "cover:\n",
+        "grades:\n  - {name: A, from: 80}\n  - {name: B, from: 80.0}\ncover:\n",
+        "80.0",
+        "the grades `A` and `B` share a name or a boundary",
+        "",
+    );
+    check(
+        "outcomes:\n",
+        "outcomes:\n  z: {text: x, target: 60}\n",
+        "60",
+        "target must be 0 to 1, not 60",
+        "0.01 is 1 %",
+    );
+
     // Names and ids.
     check(
         "lab: ee361-lab3",
@@ -738,4 +761,19 @@ fn blocks_that_switch_are_checked_where_they_stand() {
         let told = messages.iter().any(|m| m == "the output of `staircase` jumps where its `quantizer` switches: data cannot be held against it");
         assert_eq!(told, refused, "{about}: {messages:#?}");
     }
+}
+
+#[test]
+fn grades_come_highest_first_and_outcomes_with_or_without_a_target() {
+    let text = embedded_text().replacen(
+        "cover:\n",
+        "grades:\n  - {name: pass, from: 50}\n  - {name: A, from: 85.5}\nrelease: {solutions: false}\ncover:\n",
+        1,
+    );
+    let lab = parse(&text.replacen("outcomes:\n", "outcomes:\n  z: {text: x, target: 0.6}\n", 1)).unwrap();
+    let grades: Vec<_> = lab.grades.iter().map(|grade| (grade.name.as_str(), grade.from)).collect();
+    assert_eq!(grades, [("A", Points(8550)), ("pass", Points(5000))]);
+    assert_eq!(lab.release, crate::lab::Release { solutions: false, ..crate::lab::Release::ALL });
+    assert_eq!(lab.outcomes[0].target, crate::algebra::parse_decimal("0.6").ok());
+    assert_eq!(lab.outcomes[1].target, None);
 }
