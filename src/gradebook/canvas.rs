@@ -175,44 +175,50 @@ const TOTALS: &[&str] = &[
     "Override Status",
 ];
 
-/// The column of the assignment that `wanted` names.
+/// A column of an assignment.
+#[derive(Clone, Copy)]
+struct Candidate<'a> {
+    column: usize,
+    header: &'a str,
+    title: &'a str,
+    id: &'a str,
+}
+
+/// The column of the assignment that `wanted` names: by its header, its number, its title; then by its title in any letters.
 fn chosen(header: &[String], from: usize, wanted: Option<&str>) -> Result<usize, ExportError> {
     let is_total = |name: &str| TOTALS.iter().any(|total| name.contains(total));
-    let all: Vec<(usize, &str, &str, &str)> = header
-        .iter()
-        .enumerate()
-        .skip(from)
-        .filter_map(|(at, name)| title_and_id(name).map(|(title, id)| (at, name.as_str(), title, id)))
-        .collect();
-    let open: Vec<_> = all.iter().filter(|(_, name, _, _)| !is_total(name)).copied().collect();
-    let listed = |some: &[(usize, &str, &str, &str)]| {
-        let names: Vec<String> = some.iter().map(|(_, name, _, _)| format!("`{name}`")).collect();
-        names.join(", ")
+    let columns = header.iter().enumerate().skip(from);
+    let all = columns.filter_map(|(column, header)| {
+        let (title, id) = title_and_id(header)?;
+        Some(Candidate { column, header, title, id })
+    });
+    let (totals, open): (Vec<_>, Vec<_>) = all.partition(|one| is_total(one.header));
+    let listed = |some: &[Candidate<'_>]| {
+        some.iter().map(|one| format!("`{}`", one.header)).collect::<Vec<_>>().join(", ")
     };
     let Some(wanted) = wanted.map(str::trim) else {
         return match open.as_slice() {
-            [(at, _, _, _)] => Ok(*at),
+            [one] => Ok(one.column),
             [] => Err(ExportError::NoAssignments),
             several => Err(ExportError::WhichAssignment { candidates: listed(several) }),
         };
     };
-    if let Some((_, name, _, _)) = all.iter().find(|(_, name, _, _)| is_total(name) && *name == wanted) {
-        return Err(ExportError::TakenForTotal((*name).to_owned()));
+    if totals.iter().any(|one| one.header == wanted) {
+        return Err(ExportError::TakenForTotal(wanted.to_owned()));
     }
-    // The whole header, the number, the title; then the title in any letters.
+    let number = wanted.trim_start_matches('(').trim_end_matches(')');
     let lower = wanted.to_lowercase();
-    let ways: [&dyn Fn(&str, &str, &str) -> bool; 4] = [
-        &|name, _, _| name == wanted,
-        &|_, _, id| id == wanted.trim_start_matches('(').trim_end_matches(')'),
-        &|_, title, _| title == wanted,
-        &|_, title, _| title.to_lowercase() == lower,
+    let ways: [fn(&Candidate<'_>, [&str; 3]) -> bool; 4] = [
+        |one, [wanted, _, _]| one.header == wanted,
+        |one, [_, number, _]| one.id == number,
+        |one, [wanted, _, _]| one.title == wanted,
+        |one, [_, _, lower]| one.title.to_lowercase() == lower,
     ];
     for way in ways {
-        let found: Vec<_> =
-            open.iter().filter(|(_, name, title, id)| way(name, title, id)).copied().collect();
+        let found: Vec<_> = open.iter().filter(|one| way(one, [wanted, number, &lower])).copied().collect();
         match found.as_slice() {
             [] => {}
-            [(at, _, _, _)] => return Ok(*at),
+            [one] => return Ok(one.column),
             several => {
                 let (wanted, candidates) = (wanted.to_owned(), listed(several));
                 return Err(ExportError::SeveralAssignments { wanted, candidates });

@@ -53,9 +53,10 @@ impl Directory {
         {
             let (strongest, all) = best.entry(row).or_insert((key, Vec::new()));
             // Identifiers go before names, whoever comes first.
-            if (key == Key::Name) < (*strongest == Key::Name) {
+            let (by_name, were_by_name) = (key == Key::Name, *strongest == Key::Name);
+            if were_by_name && !by_name {
                 (*strongest, *all) = (key, vec![person]);
-            } else if (key == Key::Name) == (*strongest == Key::Name) {
+            } else if by_name == were_by_name {
                 all.push(person);
             }
         }

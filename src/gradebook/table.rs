@@ -210,6 +210,31 @@ mod tests {
         check("UTF-16", b"\xff\xfea\0", "it is UTF-16 text; save it as CSV in UTF-8");
     }
 
+    proptest::proptest! {
+        #[test]
+        fn any_bytes_are_read_or_refused(bytes in proptest::collection::vec(0_u8..=255, 0..200)) {
+            let few: Vec<u8> = bytes.iter().map(|byte| b",;\"\n\ra1\t"[usize::from(byte % 8)]).collect();
+            for bytes in [bytes, few] {
+                if let Ok(table) = Table::parse(&bytes) {
+                    assert_eq!(table.with(&[]), bytes);
+                    for row in &table.rows {
+                        (0..=row.cells.len()).for_each(|column| drop(table.text(row, column)));
+                    }
+                }
+            }
+        }
+
+        #[test]
+        fn a_cell_says_what_was_put_into_it(text in "[a-z,;\"\r\n=]{0,12}") {
+            let table = Table::parse(b"a,b\n1,2\n").unwrap();
+            let row = table.rows[1].clone();
+            let bytes = table.with(&[(row.cells[0].clone(), table.cell(&text, b"1"))]);
+            let again = Table::parse(&bytes).unwrap();
+            assert_eq!(again.text(&again.rows[1], 0), text.trim());
+            assert_eq!(again.text(&again.rows[1], 1), "2");
+        }
+    }
+
     #[test]
     fn other_cells_take_their_places() {
         let table = Table::parse(b"a;b\r\n1;\"x\"\r\n").unwrap();
