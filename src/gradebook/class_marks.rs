@@ -24,6 +24,7 @@ impl Rules {
             Some(Why::HandedNothingIn) if self.zero_for_missing => Ok(Points::ZERO),
             Some(why @ (Why::Failed | Why::HandedNothingIn)) => Err(why),
             Some(why) if !self.as_it_stands => Err(why),
+            _ if record.mark.is_some() => Ok(record.mark.map_or(Points::ZERO, |mark| mark.earned)),
             _ => {
                 let boxes = || record.cover.iter().filter_map(|one| one.earned).sum();
                 let adjustments: Points = record.adjustments.iter().filter_map(|one| one.points).sum();
@@ -37,6 +38,12 @@ impl Rules {
 /// What a record's mark is out of.
 pub fn out_of(record: &Record) -> Points {
     record.cover.iter().map(|one| one.possible).sum()
+}
+
+/// Tells students apart by their ids, however those are typed.
+pub fn key(id: &str) -> String {
+    let folded = folded_id(id);
+    if folded.is_empty() { id.to_owned() } else { folded }
 }
 
 /// What an export needs to know of a student: small, for all students are in memory at once.
@@ -110,8 +117,7 @@ impl ClassMarks {
         mark: Result<Points, Why>,
         seen: &mut BTreeMap<String, usize>,
     ) {
-        let folded = folded_id(&student.id);
-        let key = if folded.is_empty() { student.id.clone() } else { folded };
+        let key = key(&student.id);
         if let Some(first) = seen.get(&key).and_then(|at| self.people.get_mut(*at)) {
             // Which of them counts is for a person to say, whatever else is asked for.
             match &mut first.mark {
@@ -203,12 +209,30 @@ mod tests {
             let mut missing = record("EE-007", "");
             (missing.status, missing.cover_total) = (Status::Missing, None);
             missing.cover.iter_mut().for_each(|one| one.earned = None);
+            let mut adjusted = record("EE-010", "");
+            adjusted.adjustments = serde_json::from_str(r#"[{"points": -5, "reason": "late"}]"#).unwrap();
+            let mut half_adjusted = record("EE-011", "");
+            half_adjusted.adjustments =
+                serde_json::from_str(r#"[{"points": null, "reason": "late"}]"#).unwrap();
             let mut failed = record("EE-008", "");
             failed.failed = true;
             let mut superseded = record("EE-004", "");
             superseded.status = Status::Superseded;
             let (first, again) = (record("EE-009", ""), record("ee 009", ""));
-            vec![group, held, noted, provisional, box_empty, missing, failed, superseded, first, again]
+            vec![
+                group,
+                held,
+                noted,
+                provisional,
+                box_empty,
+                missing,
+                failed,
+                superseded,
+                first,
+                again,
+                adjusted,
+                half_adjusted,
+            ]
         };
         let several = "EE-009: several files count for this student: EE-009.yaml, ee 009.yaml";
         let failed = "EE-008: polemark failed on the answer file";
@@ -226,6 +250,8 @@ mod tests {
                 "EE-007: handed nothing in",
                 failed,
                 several,
+                "EE-010 2.5",
+                "EE-011: 1 adjustment waits for a person",
             ],
         );
         let rules = Rules { as_it_stands: true, zero_for_missing: true, scale_to: Some(Points(10_000)) };
@@ -239,6 +265,8 @@ mod tests {
             "EE-007 0",
             failed,
             several,
+            "EE-010 25",
+            "EE-011 75",
         ];
         check("as it stands, of 100", all(), rules, &out);
     }

@@ -1,4 +1,4 @@
-use super::class_marks::Rules;
+use super::class_marks::{Rules, key};
 use super::{ExportError, Records, Summary, Why};
 use crate::class::{HandedIn, Lms, Record};
 use crate::source::sanitize;
@@ -41,7 +41,7 @@ pub fn write_feedback<W: Write + Seek>(
         .last_modified_time(DateTime::default())
         .unix_permissions(0o644);
     let mut summary = Summary::default();
-    let names = names_wanted(out, lms, rules)?;
+    let shared = Shared::read(out, lms, rules)?;
     for record in Records::open(out)? {
         let record = record?;
         if !record.counts() {
@@ -49,6 +49,10 @@ pub fn write_feedback<W: Write + Seek>(
         }
         if let Err(why) = rules.mark(&record) {
             summary.leave_out(who(&record), why);
+            continue;
+        }
+        if let Some(files) = shared.files(&record) {
+            summary.leave_out(who(&record), Why::SeveralFiles(files.clone()));
             continue;
         }
         let receivers = receivers(lms, &record, &mut summary);
@@ -60,7 +64,7 @@ pub fn write_feedback<W: Write + Seek>(
             continue;
         };
         for receiver in receivers {
-            if names.get(&receiver).is_some_and(|count| *count > 1) {
+            if shared.names.get(&receiver).is_some_and(|count| *count > 1) {
                 summary.leave_out(who(&record), Why::SharedNumber);
                 continue;
             }
@@ -73,18 +77,40 @@ pub fn write_feedback<W: Write + Seek>(
     Ok(summary)
 }
 
-/// How many reports would have each name: where there are several, everybody would get the report of one.
-fn names_wanted(out: &Path, lms: FeedbackFor, rules: &Rules) -> Result<BTreeMap<String, usize>, ExportError> {
-    let mut names = BTreeMap::new();
-    for record in Records::open(out)? {
-        let record = record?;
-        if record.counts() && rules.mark(&record).is_ok() {
-            for name in receivers(lms, &record, &mut Summary::default()) {
-                *names.entry(name).or_insert(0) += 1;
+/// What only the whole class tells.
+#[derive(Default)]
+struct Shared {
+    /// How many reports would have each name: where there are several, everybody would get the report of one.
+    names: BTreeMap<String, usize>,
+    /// Files that count for each student.
+    files: BTreeMap<String, Vec<String>>,
+}
+
+impl Shared {
+    fn read(out: &Path, lms: FeedbackFor, rules: &Rules) -> Result<Self, ExportError> {
+        let mut shared = Self::default();
+        for record in Records::open(out)? {
+            let record = record?;
+            if !record.counts() {
+                continue;
+            }
+            for student in &record.students {
+                shared.files.entry(key(&student.id)).or_default().push(record.file.clone());
+            }
+            if rules.mark(&record).is_ok() {
+                for name in receivers(lms, &record, &mut Summary::default()) {
+                    *shared.names.entry(name).or_insert(0) += 1;
+                }
             }
         }
+        Ok(shared)
     }
-    Ok(names)
+
+    /// Files that count for a student of `record`, when there are several.
+    fn files(&self, record: &Record) -> Option<&Vec<String>> {
+        let mut files = record.students.iter().filter_map(|student| self.files.get(&key(&student.id)));
+        files.find(|files| files.len() > 1)
+    }
 }
 
 fn receivers(lms: FeedbackFor, record: &Record, summary: &mut Summary) -> Vec<String> {
@@ -341,6 +367,9 @@ mod tests {
         check("canvas", FeedbackFor::Canvas, vec![jane.clone(), hidden, typed], &[name], 2);
         let mut other_member = record("EE-004", "Max");
         other_member.handed_in = jane.handed_in.clone();
+        let mut again = jane.clone();
+        again.handed_in = handed_in(Lms::Canvas, "doejane", "12", Some(346));
+        check("two files of one student", FeedbackFor::Canvas, vec![jane.clone(), again], &[], 2);
         check("members with reports of their own", FeedbackFor::Canvas, vec![jane, other_member], &[], 2);
     }
 

@@ -37,8 +37,8 @@ impl Wanted {
 
 /// `results.json` as Gradescope reads it from an autograder: a test for each criterion and each row of the observation sheet.
 ///
-/// - `score` on top is the mark and goes before the sum of the tests, for boxes of the cover sheet that a person fills are no
-///   tests. It must be a number, and so nothing is written for a mark that waits for a person, unless `rules` say so.
+/// - `score` on top is the mark and goes before the sum of the tests, for boxes of the cover sheet that a person fills and
+///   adjustments are no tests; `output` on top says what the adjustments are for. It must be a number, and so nothing is written for a mark that waits for a person, unless `rules` say so.
 /// - A test has `score`, `max_score`, `name`, `number` (question and criterion), `status`, and in `output` what was found and
 ///   why, as text, which Gradescope escapes; control characters are taken out. A row that is not given yet has no `score`.
 /// - `visibility` is `after_published`: students see nothing before the instructor publishes.
@@ -72,6 +72,8 @@ pub fn gradescope(
     };
     let results = Results {
         score: number(mark),
+        output: adjustments(&record),
+        output_format: "text",
         visibility: AFTER_PUBLISHED,
         stdout_visibility: "hidden",
         tests: tests(&record),
@@ -86,6 +88,9 @@ const AFTER_PUBLISHED: &str = "after_published";
 #[derive(Serialize)]
 struct Results {
     score: serde_json::Number,
+    #[serde(skip_serializing_if = "String::is_empty")]
+    output: String,
+    output_format: &'static str,
     visibility: &'static str,
     stdout_visibility: &'static str,
     tests: Vec<Test>,
@@ -104,6 +109,15 @@ struct Test {
     output: String,
     output_format: &'static str,
     visibility: &'static str,
+}
+
+/// What changed the mark beside the tests, a line each.
+fn adjustments(record: &Record) -> String {
+    let lines = record.adjustments.iter().map(|one| {
+        let points = one.points.map_or_else(String::new, |points| format!("{points} points: "));
+        format!("{points}{}", sanitize(&one.reason))
+    });
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 fn tests(record: &Record) -> Vec<Test> {
@@ -196,7 +210,7 @@ mod tests_of_gradescope {
             (&json!("1.2"), &json!("passed"))
         );
         assert_eq!((&json["tests"][2]["name"], &json["tests"][2]["score"]), (&json!("tidy"), &json!(3)));
-        let no_other_keys = ["score", "visibility", "stdout_visibility", "tests"];
+        let no_other_keys = ["score", "output_format", "visibility", "stdout_visibility", "tests"];
         assert!(json.as_object().unwrap().keys().all(|key| no_other_keys.contains(&key.as_str())));
     }
 

@@ -11,6 +11,8 @@ pub enum Why {
     SeveralFiles(Vec<String>),
     /// So many criteria wait for a person.
     Waits(usize),
+    /// So many adjustments wait for a person.
+    AdjustmentsWait(usize),
     /// So many boxes of the cover sheet are empty.
     Incomplete(usize),
     Unreadable,
@@ -61,7 +63,11 @@ impl Why {
             return Some(Self::Waits(waits));
         }
         let empty = record.cover.iter().filter(|one| one.earned.is_none()).count();
-        (empty > 0).then_some(Self::Incomplete(empty))
+        if empty > 0 {
+            return Some(Self::Incomplete(empty));
+        }
+        let adjustments = record.adjustments.iter().filter(|one| one.points.is_none()).count();
+        (adjustments > 0).then_some(Self::AdjustmentsWait(adjustments))
     }
 }
 
@@ -74,6 +80,8 @@ impl fmt::Display for Why {
             }
             Self::Waits(1) => write!(f, "1 criterion waits for a person"),
             Self::Waits(count) => write!(f, "{count} criteria wait for a person"),
+            Self::AdjustmentsWait(1) => write!(f, "1 adjustment waits for a person"),
+            Self::AdjustmentsWait(count) => write!(f, "{count} adjustments wait for a person"),
             Self::Incomplete(1) => write!(f, "1 box of the cover sheet is not filled in yet"),
             Self::Incomplete(count) => write!(f, "{count} boxes of the cover sheet are not filled in yet"),
             Self::Unreadable => write!(f, "the answer file could not be read"),
