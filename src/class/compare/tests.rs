@@ -47,10 +47,10 @@ fn each_change_has_its_cause() {
         let found = compare(&RUN.standing("EE-1"), &new.standing("EE-1"));
         let causes: Vec<_> = found.changes.iter().map(|change| change.cause.as_str()).collect();
         assert_eq!(causes, cause.into_iter().collect::<Vec<_>>(), "{what}");
-        if cause.is_some() {
+        if let Some(cause) = cause {
             assert_eq!((found.students, found.items, found.mean_change), (1, 1, 1.0), "{what}");
             let csv = String::from_utf8(comparison_csv(&found).unwrap()).unwrap();
-            assert!(csv.ends_with(&format!("EE-1,'=A,q.one,1,2,1,{}\n", cause.unwrap())), "{csv}");
+            assert!(csv.ends_with(&format!("EE-1,'=A,q.one,1,2,1,{cause}\n")), "{csv}");
         }
     }
 }

@@ -221,5 +221,10 @@ impl Group {
     }
 }
 
+/// `1 answer`, `3 answers`.
+fn answers(count: usize) -> String {
+    if count == 1 { "1 answer".to_owned() } else { format!("{count} answers") }
+}
+
 #[cfg(test)]
 mod tests;

@@ -1,6 +1,6 @@
 use super::MarksStub;
 use crate::class::gradebook::disarmed;
-use crate::grading::separator;
+use crate::grading::{NO_ANSWER, separator};
 use crate::source::{DecodeError, decode_within, sanitize};
 use std::collections::BTreeSet;
 
@@ -86,9 +86,10 @@ impl MarksStub {
         }
         for (item, id, group) in self.ordered_groups() {
             let about = &group.about;
-            let why = format!("{} answers: {}", group.count, about.why);
+            let why = format!("{}: {}", super::answers(group.count), about.why);
             let (possible, given) = (about.possible.to_string(), about.given.to_string());
-            let answers = group.listed_answers().join(" ");
+            let answers: Vec<String> = group.listed_answers().into_iter().map(as_text).collect();
+            let answers = answers.join(" ");
             rows.push(row(["", item, id, "", "", &answers, "", &possible, &given, &why, &about.begins, ""]));
         }
         for student in self.asked() {
@@ -131,7 +132,7 @@ impl MarksStub {
                     "",
                     "",
                     "",
-                    answer,
+                    &as_text(answer),
                     name,
                     &possible,
                     &given,
@@ -145,12 +146,17 @@ impl MarksStub {
     }
 }
 
+/// A hash as a spreadsheet leaves it alone: `0350511776412266` and `35e11` would be numbers to it.
+fn as_text(hash: &str) -> String {
+    if hash == NO_ANSWER { hash.to_owned() } else { format!("#{hash}") }
+}
+
 type Key = (String, String, String, String);
 
 fn key(student: &str, item: &str, group: &str, answer: &str) -> Key {
     let cell = |text: &str| disarmed(text.trim());
     // Which file counts is filled in there.
-    let answer = if item.trim() == "counts" { String::new() } else { cell(answer) };
+    let answer = if item.trim() == "counts" { String::new() } else { cell(&answer.replace('#', "")) };
     // Whose a file is, is filled in before.
     let student = if item.trim() == "is" { String::new() } else { cell(student) };
     (student, cell(item), cell(group), answer)

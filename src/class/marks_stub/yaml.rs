@@ -1,4 +1,4 @@
-use super::{About, MarksStub, OneStudent};
+use super::{About, MarksStub, OneStudent, answers};
 use crate::class::run_facts::PartFacts;
 use crate::source::sanitize;
 use std::fmt::Write;
@@ -137,10 +137,6 @@ fn about(out: &mut String, indent: &str, about: &About) -> std::fmt::Result {
         true => Ok(()),
         false => writeln!(out, "{indent}# {}", comment(&about.begins)),
     }
-}
-
-fn answers(count: usize) -> String {
-    if count == 1 { "1 answer".to_owned() } else { format!("{count} answers") }
 }
 
 /// Text that stays within its line.

@@ -57,9 +57,10 @@ impl Findings {
         }
     }
 
-    /// Hashes of answers, apart by spaces or commas.
+    /// Hashes of answers, apart by spaces or commas; in tables with `#` before each.
     pub fn hashes(&mut self, text: &str, span: Span) -> Vec<String> {
-        let hashes = text.split([' ', ',', ';', '\n', '\t']).map(str::trim).filter(|hash| !hash.is_empty());
+        let hashes =
+            text.split([' ', ',', ';', '\n', '\t', '#']).map(str::trim).filter(|hash| !hash.is_empty());
         let hashes: Vec<String> = hashes.map(str::to_lowercase).collect();
         let is_hash = |hash: &String| {
             hash == super::NO_ANSWER || (hash.len() == 16 && hash.chars().all(|c| c.is_ascii_hexdigit()))
