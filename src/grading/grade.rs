@@ -422,7 +422,7 @@ impl<'a> Grader<'a> {
             Target {
                 with: one.with(),
                 at: Box::new(move |t| known.response.at(t)),
-                samples: &known.samples,
+                samples: known.samples(),
                 until_s: f64::INFINITY,
             }
         };

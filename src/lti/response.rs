@@ -105,6 +105,16 @@ impl Mode {
         (1..=k).fold((self.re * t).min(600.0).exp(), |product, i| product * t / i as f64)
     }
 
+    /// The contribution at t, to the last bit what [`jet`](Self::jet) begins with.
+    fn value(&self, t: f64) -> f64 {
+        let full = self.growth(t, self.power);
+        if self.is_real() {
+            return self.coefficient_re * full;
+        }
+        let (sin, cos) = (self.im * t).sin_cos();
+        (2.0 * self.coefficient_re * cos - 2.0 * self.coefficient_im * sin) * full
+    }
+
     /// Value and first two derivatives of the contribution at t.
     fn jet(&self, t: f64) -> [f64; 3] {
         let p = Complex64::new(self.re, self.im);
@@ -217,7 +227,13 @@ impl Response {
     ///
     /// Growth stops near 1e260: a value is always finite.
     pub fn at(&self, t: f64) -> f64 {
-        if t == 0.0 { self.initial } else { self.jet(t)[0] }
+        if t == 0.0 {
+            return self.initial;
+        }
+        match self.pieces().and_then(|pieces| pieces.jet(t)) {
+            Some(jet) => jet[0],
+            None => self.modes.iter().fold(0.0, |sum, mode| sum + mode.value(t)),
+        }
     }
 
     /// dy/dt at t ≥ 0.
@@ -392,6 +408,17 @@ mod tests {
     use super::*;
     use crate::lti::matrix_exponential_response;
     use crate::lti::tests::{HANGING, UPRIGHT, tf};
+
+    #[test]
+    fn a_value_is_the_beginning_of_its_jet_to_the_last_bit() {
+        for (num, den) in [HANGING, UPRIGHT, ("1", "1 5 59 157 152 50"), ("1 2", "1 3 0 0")] {
+            let response = Response::new(&tf(num, den), Step).unwrap();
+            for i in 1..500 {
+                let t = f64::from(i) / 37.0;
+                assert_eq!(response.at(t).to_bits(), response.jet(t)[0].to_bits(), "{num} / {den} at {t}");
+            }
+        }
+    }
 
     /// `times`: (t, y).
     #[track_caller]

@@ -249,6 +249,6 @@ fn response_view(response: &ResponseReference) -> ResponseView<'_> {
         overshoot_percent: f.overshoot_percent,
         rise_time_10_90_s: f.rise_time_10_90_s,
         rise_time_0_100_s: f.rise_time_0_100_s,
-        samples: &response.samples,
+        samples: response.samples(),
     }
 }

@@ -1,5 +1,6 @@
 use crate::algebra::to_f64;
 use crate::lti::{Features, InputKind, Response, ResponseError, TransferFunction};
+use std::sync::OnceLock;
 
 /// How far, as a part of the peak, a drawn polyline may stray from the true curve.
 const DRAWING_TOLERANCE: f64 = 1e-3;
@@ -18,8 +19,7 @@ pub struct ResponseReference {
     pub features: Features,
     /// Seconds shown.
     pub horizon_s: f64,
-    /// (t, y) for drawing.
-    pub samples: Vec<(f64, f64)>,
+    drawn: OnceLock<Vec<(f64, f64)>>,
 }
 
 impl ResponseReference {
@@ -32,8 +32,13 @@ impl ResponseReference {
         Ok(Self {
             features: Features { dc_gain: dc_gain(g), ..Features::of(&response) },
             horizon_s,
-            samples: response.samples(horizon_s, DRAWING_TOLERANCE),
             response,
+            drawn: OnceLock::new(),
         })
+    }
+
+    /// (t, y) for drawing, to the horizon. Worked out when they are first asked for: of a student's function they seldom are.
+    pub fn samples(&self) -> &[(f64, f64)] {
+        self.drawn.get_or_init(|| self.response.samples(self.horizon_s, DRAWING_TOLERANCE))
     }
 }

@@ -51,7 +51,7 @@ impl PreparedResponse {
             name: String::new(),
             end_s: reference.horizon_s,
             dense: false,
-            reference: reference.samples.clone(),
+            reference: reference.samples().to_vec(),
         };
         let views = match reference.features.period_s {
             Some(period) if reference.horizon_s > MANY_PERIODS * period => {
