@@ -5,7 +5,7 @@
 //!     │
 //!   algebra                  exact rationals, polynomials, expressions
 //!     │           source     text with places in it: spans, findings, a YAML tree
-//!     │           annotations   findings for other programs: JUnit, SARIF, GitHub
+//!     │              ├ annotations   findings for other programs: JSON, JUnit, SARIF, GitHub
 //!   lti   nonlinear  │       transfer functions, poles, responses · saturation, relay, backlash …
 //!     └──┬──┘      prose     what English sentences say: phrases, denials, claims about a response
 //!     model          │       equations → equilibrium → linearization
@@ -17,9 +17,9 @@
 //!     grading                Criterion → Evidence → Verdict → Scorecard
 //!     report                 Scorecard → view → figure → svg → html
 //!     proof                  a lab proves itself: stated values, second route, model answer, blank
-//!     class                  many submissions: in parallel, gradebook, statistics
+//!     class                  many submissions: intake, in parallel, records, statistics, comparison
 //!     gradebook              records → Canvas, Moodle, Gradescope, Excel; reports to hand back
-//!     cli                    new · check · grade · verify · reference
+//!     cli                    labs · new · handout · check · grade · marks · compare · export · verify · reference · schema
 //! ```
 //!
 //! A module imports from modules above it, never from below.

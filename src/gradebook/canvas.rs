@@ -283,21 +283,7 @@ pub fn canvas_by_roster(class: &ClassMarks, assignment: &str) -> Result<Export, 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gradebook::Person;
-    use crate::lab::Points;
-
-    fn class(people: &[(&str, &str, Result<i64, Why>)]) -> ClassMarks {
-        let people = people.iter().map(|(id, name, mark)| Person {
-            id: (*id).to_owned(),
-            name: (*name).to_owned(),
-            roster: None,
-            handed_in: None,
-            file: format!("{id}.yaml"),
-            mark: mark.clone().map(Points),
-            by_question: String::new(),
-        });
-        ClassMarks { people: people.collect(), out_of: Points(10_000), of_nobody: Vec::new() }
-    }
+    use crate::gradebook::tests::class;
 
     const EXPORT: &str = "Student,ID,SIS User ID,SIS Login ID,Section,Notes,Homework (7),Lab 3 (42),\"Lab, 3 (43)\",Current Score,Final Score\n\
         ,,,,,,,Manual Posting,,,\n\

@@ -170,21 +170,7 @@ impl Columns {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gradebook::Person;
-    use crate::lab::Points;
-
-    fn class(people: &[(&str, &str, Result<i64, Why>)]) -> ClassMarks {
-        let people = people.iter().map(|(id, name, mark)| Person {
-            id: (*id).to_owned(),
-            name: (*name).to_owned(),
-            roster: None,
-            handed_in: None,
-            file: format!("{id}.yaml"),
-            mark: mark.clone().map(Points),
-            by_question: "a<b: 1 of 2; c: 3 of 4".to_owned(),
-        });
-        ClassMarks { people: people.collect(), out_of: Points(10_000), of_nobody: Vec::new() }
-    }
+    use crate::gradebook::tests::class;
 
     const HEADER: &str = "Identifier,Full name,ID number,Email address,Status,Grade,Maximum Grade,Grade can be changed,\
                           Last modified (grade),Feedback comments";

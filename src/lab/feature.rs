@@ -102,6 +102,14 @@ impl FeatureKind {
         self.row().map_or("", |(_, name, _)| name)
     }
 
+    /// As the path of a computed value ends, which tells the value of a peak from its time: `peak_value`.
+    pub fn path_name(self) -> &'static str {
+        match self {
+            Self::Peak => "peak_value",
+            other => other.as_str(),
+        }
+    }
+
     /// To stand in a sentence: `the settling time to within 2 %`.
     pub fn words(self) -> &'static str {
         self.row().map_or("", |(_, _, words)| words)

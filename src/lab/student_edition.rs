@@ -322,7 +322,7 @@ impl EditionField {
             line("about", &filled(about));
         }
         if let Some(response) = field.response {
-            line("response", response_word(response));
+            line("response", response.as_str());
         }
         if let Some(unit) = &field.unit {
             line("unit", &filled(unit.symbol()));
@@ -378,13 +378,6 @@ const KIND_WORDS: [(FieldKind, &str); 10] = [
 /// As the file has it, and serde reads it.
 fn kind_word(kind: FieldKind) -> &'static str {
     KIND_WORDS.iter().find(|(known, _)| *known == kind).map_or("prose", |(_, word)| word)
-}
-
-fn response_word(response: InputKind) -> &'static str {
-    match response {
-        InputKind::Impulse => "impulse",
-        InputKind::Step => "step",
-    }
 }
 
 #[derive(serde::Deserialize)]

@@ -20,6 +20,16 @@ pub enum InputKind {
     Step,
 }
 
+impl InputKind {
+    /// As lab files spell it: `impulse`, `step`.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Impulse => "impulse",
+            Self::Step => "step",
+        }
+    }
+}
+
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ResponseError {
     #[error(

@@ -64,21 +64,13 @@ pub(super) const AT_REST: char = '\0';
 
 /// The same with every name standing for its value at rest.
 pub(super) fn at_rest(node: &Expression) -> Expression {
-    let inner = |child: &Expression| Box::new(at_rest(child));
-    let kind = match &node.kind {
+    node.replaced(&|node| match &node.kind {
         NodeKind::Symbol { name, primes } => {
-            NodeKind::Symbol { name: format!("{name}{AT_REST}"), primes: *primes }
+            let kind = NodeKind::Symbol { name: format!("{name}{AT_REST}"), primes: *primes };
+            Some(Expression { kind, start: node.start, end: node.end })
         }
-        NodeKind::Number(_) | NodeKind::Pi => node.kind.clone(),
-        NodeKind::Negate(a) => NodeKind::Negate(inner(a)),
-        NodeKind::Call(function, a) => NodeKind::Call(*function, inner(a)),
-        NodeKind::Add(a, b) => NodeKind::Add(inner(a), inner(b)),
-        NodeKind::Subtract(a, b) => NodeKind::Subtract(inner(a), inner(b)),
-        NodeKind::Multiply(a, b) => NodeKind::Multiply(inner(a), inner(b)),
-        NodeKind::Divide(a, b) => NodeKind::Divide(inner(a), inner(b)),
-        NodeKind::Power(a, b) => NodeKind::Power(inner(a), inner(b)),
-    };
-    Expression { kind, start: node.start, end: node.end }
+        _ => None,
+    })
 }
 
 /// Of the sum of the sizes of an equation's terms.

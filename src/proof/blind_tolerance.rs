@@ -1,6 +1,5 @@
 use crate::algebra::{significant, to_f64};
 use crate::lab::{Check, ExpectedValue, LabDefinition};
-use crate::lti::InputKind;
 use crate::reference::{Reference, values_at};
 
 /// Criteria whose stated absolute tolerance is as wide as what they expect: 0, or the other sign, would be right.
@@ -12,15 +11,9 @@ pub(super) fn blind_tolerances(lab: &LabDefinition, reference: &Reference) -> Ve
         .filter_map(|criterion| {
             let (path, tolerance, factor) = match &criterion.check {
                 Check::Feature { of, response, feature, tolerance } => {
-                    let kind = match response {
-                        InputKind::Impulse => "impulse",
-                        InputKind::Step => "step",
-                    };
-                    let name = feature.kind.as_str();
-                    let name = if name == "peak" { "peak_value" } else { name };
                     let ratio = feature.ratio();
                     let factor = to_f64(&ratio.factor) * std::f64::consts::PI.powi(ratio.pi);
-                    (format!("{of}.{kind}.{name}"), tolerance, factor)
+                    (format!("{of}.{}.{}", response.as_str(), feature.kind.path_name()), tolerance, factor)
                 }
                 Check::Poles { of, tolerance, .. } => (format!("{of}.poles"), tolerance, 1.0),
                 _ => return None,

@@ -4,7 +4,6 @@ use super::blind_tolerance::blind_tolerances;
 use super::mistakes::undeclared;
 use crate::algebra::{Expression, significant, to_f64};
 use crate::lab::{Check, Concept, ExpectedValue, LabDefinition, LineForm, Question, SystemRef};
-use crate::lti::InputKind;
 use crate::reference::{OperatingPointReference, Reference, values_at};
 use crate::submission::{AnsweredIn, Field, FieldKind, Unit, nonlinearity_name};
 use std::collections::BTreeSet;
@@ -297,13 +296,11 @@ fn answer(check: &Check, reference: &Reference) -> Option<String> {
             Some(format!("[{}]", poles.join(", ")))
         }
         Check::Stability { of } => at(of, "stability")?.first().map(rounded),
-        Check::Shape { of, response } => at(of, &format!("{}.shape", name(*response)))?.first().map(rounded),
+        Check::Shape { of, response } => {
+            at(of, &format!("{}.shape", response.as_str()))?.first().map(rounded)
+        }
         Check::Feature { of, response, feature, .. } => {
-            let feature = match feature.kind.as_str() {
-                "peak" => "peak_value",
-                other => other,
-            };
-            let value = at(of, &format!("{}.{feature}", name(*response)));
+            let value = at(of, &format!("{}.{}", response.as_str(), feature.kind.path_name()));
             Some(
                 value
                     .and_then(|value| value.first().map(rounded))
@@ -320,13 +317,6 @@ fn answer(check: &Check, reference: &Reference) -> Option<String> {
         Check::Nonlinearity { expected } => Some(nonlinearity_name(*expected).to_owned()),
         Check::Tangent { of, form, .. } => tangent(reference.operating_point(of)?, *form),
         _ => None,
-    }
-}
-
-fn name(response: InputKind) -> &'static str {
-    match response {
-        InputKind::Impulse => "impulse",
-        InputKind::Step => "step",
     }
 }
 

@@ -1,11 +1,11 @@
 //! Like answers: which are together, and what one decision does for them.
 
+use crate::program::run_in;
 use polemark::grading::{self, Catalogue, HandMarksFile, ItemScore};
 use polemark::lab::{self, LabDefinition, Points};
 use polemark::reference::Reference;
 use polemark::source::SourceText;
 use polemark::submission::{self, NoFiles};
-use std::process::Command;
 use std::sync::OnceLock;
 
 fn bench() -> &'static (LabDefinition, Reference) {
@@ -146,14 +146,8 @@ fn a_decision_for_nobody_is_told_with_its_place() {
              text-00000000: {{points: 0, reason: nobody says so}}\n"
         ),
     );
-    let ran = Command::new(env!("CARGO_BIN_EXE_polemark"))
-        .args(["grade", "a.yaml", "--marks", "marks.yaml", "--out", "out"])
-        .current_dir(folder.path())
-        .env("NO_COLOR", "1")
-        .output()
-        .expect("the program starts");
-    let told = String::from_utf8(ran.stderr).expect("UTF-8");
-    assert!(ran.status.success(), "{told}");
+    let arguments = ["grade", "a.yaml", "--marks", "marks.yaml", "--out", "out"];
+    let told = run_in(folder.path(), &arguments).ends_with(0).err;
     assert!(told.contains("marks.yaml:5:5") && told.contains("text-00000000"), "{told}");
     assert!(!told.contains(&id), "{told}");
     let read = |name: &str| std::fs::read_to_string(folder.path().join("out").join(name)).expect("written");

@@ -1,23 +1,8 @@
 //! An instructor's first hour: a new folder, the guide's own example, and what is said when something is missing.
 
-#[path = "student_edition.rs"]
-mod student_edition;
-
+use crate::program::told_in as run;
 use polemark::reference::Reference;
 use std::path::Path;
-use std::process::Command;
-
-/// Exit code and standard output of the program, run in a folder.
-fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_polemark"))
-        .args(arguments)
-        .current_dir(folder)
-        .env("NO_COLOR", "1")
-        .output()
-        .expect("the program starts");
-    let text = [output.stdout, output.stderr].concat();
-    (output.status.code(), String::from_utf8(text).expect("UTF-8"))
-}
 
 /// A lab is proven, its template reads as blank, and its own model answers, handed in, earn full marks.
 #[track_caller]

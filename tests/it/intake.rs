@@ -2,6 +2,7 @@
 
 use crate::class::Class;
 use crate::forms::{self, FORMS, Form};
+use crate::program::{files_below, samples};
 use polemark::class::{Record, Status, find_answer_files};
 use polemark::lab;
 use polemark::reference::Reference;
@@ -24,10 +25,6 @@ pub fn write_zip(path: &Path, entries: &[(String, Vec<u8>)]) {
     zip.finish().expect("finished");
 }
 
-fn samples() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions")
-}
-
 fn grade(arguments: &[&str], out: &Path) -> String {
     let output = Command::new(env!("CARGO_BIN_EXE_polemark"))
         .arg("grade")
@@ -40,31 +37,18 @@ fn grade(arguments: &[&str], out: &Path) -> String {
     String::from_utf8(output.stdout).expect("text")
 }
 
-/// Every file below a folder, by name.
-fn files_below(folder: &Path) -> Vec<(String, Vec<u8>)> {
-    let mut files = Vec::new();
-    for entry in walkdir::WalkDir::new(folder).sort_by_file_name() {
-        let entry = entry.expect("readable");
-        if entry.file_type().is_file() {
-            let name = entry.path().strip_prefix(folder).expect("below").to_string_lossy().into_owned();
-            files.push((name, fs::read(entry.path()).expect("read")));
-        }
-    }
-    files
-}
-
 #[test]
 fn a_folder_and_an_archive_of_it_give_the_same_bytes() {
     let bench = tempfile::tempdir().expect("a folder");
-    let files = files_below(&samples());
+    let files: Vec<(String, Vec<u8>)> = files_below(&samples()).into_iter().collect();
     write_zip(&bench.path().join("class.zip"), &files);
     let (one, two) = (bench.path().join("one"), bench.path().join("two"));
     grade(&[samples().to_str().expect("a path")], &one);
     grade(&[bench.path().join("class.zip").to_str().expect("a path")], &two);
     let (one, two) = (files_below(&one), files_below(&two));
-    assert_eq!(one.len(), two.len());
-    for ((name, one), (_, two)) in one.iter().zip(&two) {
-        assert!(one == two, "{name} differs");
+    assert_eq!(one.keys().collect::<Vec<_>>(), two.keys().collect::<Vec<_>>());
+    for (name, bytes) in &one {
+        assert!(two[name] == *bytes, "{name} differs");
     }
 }
 

@@ -27,6 +27,7 @@ mod plots;
 mod program;
 mod readme;
 mod schema;
+mod student_edition;
 mod switches;
 mod teacher_marks;
 mod variants;

@@ -26,14 +26,24 @@ impl Program {
     }
 
     pub fn run(&self, arguments: &[&str]) -> Ran {
-        let output = Command::new(env!("CARGO_BIN_EXE_polemark"))
-            .args(arguments)
-            .current_dir(self.folder.path())
-            .env("NO_COLOR", "1")
-            .output()
-            .expect("the program starts");
-        Ran::from(output)
+        run_in(self.folder.path(), arguments)
     }
+}
+
+pub fn run_in(folder: &Path, arguments: &[&str]) -> Ran {
+    let output = Command::new(env!("CARGO_BIN_EXE_polemark"))
+        .args(arguments)
+        .current_dir(folder)
+        .env("NO_COLOR", "1")
+        .output()
+        .expect("the program starts");
+    Ran::from(output)
+}
+
+/// Exit code, and all that was said.
+pub fn told_in(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
+    let ran = run_in(folder, arguments);
+    (ran.code, ran.out + &ran.err)
 }
 
 pub struct Ran {

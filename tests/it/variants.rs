@@ -1,12 +1,12 @@
 //! A lab whose numbers differ from student to student, and a class that answers it.
 
+use crate::program::told_in;
 use polemark::lab::{self, LabDefinition};
 use polemark::reference::Reference;
 use polemark::report::HandoutKit;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 const LAB: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/it/variants.yaml");
 
@@ -83,15 +83,9 @@ impl Class {
 
     #[track_caller]
     fn run(&self, arguments: &[&str], code: i32) -> String {
-        let output = Command::new(env!("CARGO_BIN_EXE_polemark"))
-            .args(arguments)
-            .current_dir(self.folder.path())
-            .env("NO_COLOR", "1")
-            .output()
-            .expect("the program starts");
-        let text = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).expect("UTF-8"));
-        assert_eq!(output.status.code(), Some(code), "{}", text.concat());
-        text.concat()
+        let (found, text) = told_in(self.folder.path(), arguments);
+        assert_eq!(found, Some(code), "{text}");
+        text
     }
 
     /// Marks what was handed in; a line of `results.jsonl` each, by file name.
@@ -527,14 +521,10 @@ fn csv_rows(text: &str) -> Vec<Vec<String>> {
 fn a_roster_with_nul_in_it_is_refused_or_cleaned() {
     let class = Class::new();
     std::fs::write(class.path("roster.csv"), "id,name\nA\0B,x\n").expect("written");
-    let output = Command::new(env!("CARGO_BIN_EXE_polemark"))
-        .args(["handout", LAB, "--roster", "roster.csv", "--out", "sheets"])
-        .current_dir(class.folder.path())
-        .output()
-        .expect("the program starts");
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(matches!(output.status.code(), Some(0 | 2)) && !told.contains("panicked"), "{told}");
-    if output.status.code() == Some(0) {
+    let arguments = ["handout", LAB, "--roster", "roster.csv", "--out", "sheets"];
+    let (code, told) = told_in(class.folder.path(), &arguments);
+    assert!(matches!(code, Some(0 | 2)) && !told.contains("panicked"), "{told}");
+    if code == Some(0) {
         assert!(!class.read("sheets/A-B/handout.html").contains('\0'));
     }
 }

@@ -9,24 +9,13 @@ pub(super) fn rewrite(
     place: (usize, usize),
     other: &dyn Fn(&Expression) -> NodeKind,
 ) -> Expression {
-    let inner = |child: &Expression| Box::new(rewrite(child, place, other));
-    let kind = if (node.start, node.end) == place {
-        other(node)
-    } else if place.0 < node.start || node.end < place.1 {
-        return node.clone();
-    } else {
-        match &node.kind {
-            NodeKind::Number(_) | NodeKind::Pi | NodeKind::Symbol { .. } => node.kind.clone(),
-            NodeKind::Negate(a) => NodeKind::Negate(inner(a)),
-            NodeKind::Call(function, a) => NodeKind::Call(*function, inner(a)),
-            NodeKind::Add(a, b) => NodeKind::Add(inner(a), inner(b)),
-            NodeKind::Subtract(a, b) => NodeKind::Subtract(inner(a), inner(b)),
-            NodeKind::Multiply(a, b) => NodeKind::Multiply(inner(a), inner(b)),
-            NodeKind::Divide(a, b) => NodeKind::Divide(inner(a), inner(b)),
-            NodeKind::Power(a, b) => NodeKind::Power(inner(a), inner(b)),
+    node.replaced(&|node| {
+        if (node.start, node.end) == place {
+            return Some(Expression { kind: other(node), start: node.start, end: node.end });
         }
-    };
-    Expression { kind, start: node.start, end: node.end }
+        let elsewhere = place.0 < node.start || node.end < place.1;
+        elsewhere.then(|| node.clone())
+    })
 }
 
 /// The node itself, its sign turned.
