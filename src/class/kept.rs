@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Seek, SeekFrom};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// What earlier runs in this output folder have marked, so that only what has changed is marked again.
@@ -156,7 +156,7 @@ pub fn report_is_there(out: &Path, part: &EntryPart) -> bool {
 }
 
 /// Whether the file at `path` still has this fingerprint.
-pub fn is_as_it_was(path: &PathBuf, page: &str) -> bool {
+pub fn is_as_it_was(path: &Path, page: &str) -> bool {
     std::fs::read(path).is_ok_and(|bytes| fingerprint(bytes) == page)
 }
 

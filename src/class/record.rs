@@ -70,7 +70,7 @@ pub struct Record {
     #[serde(default = "yes")]
     pub readable: bool,
     /// polemark itself failed on it.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub failed: bool,
 }
 
@@ -82,7 +82,7 @@ pub struct StudentRecord {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub roster: Option<Box<RosterStudent>>,
     /// There is a roster, and they are not on it.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub unknown: bool,
 }
 
@@ -216,7 +216,7 @@ pub struct ReviewRecord {
     /// How the answer begins.
     pub answer: String,
     /// A person has decided about another answer than the one that stands here now.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub decided: bool,
 }
 
@@ -643,10 +643,6 @@ impl FindingRecord {
 
 fn yes() -> bool {
     true
-}
-
-fn is_false(flag: &bool) -> bool {
-    !flag
 }
 
 /// Points as a number; exact both ways, as hundredths below 2^53 are.

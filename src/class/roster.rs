@@ -1,5 +1,5 @@
 use crate::lab::folded_id;
-use crate::source::{self, DecodeError, SourceText, sanitize};
+use crate::source::{self, DecodeError, SourceText, sanitize, separator};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -125,7 +125,7 @@ impl Roster {
     pub fn parse(source: &SourceText) -> Result<Self, RosterError> {
         let name = sanitize(&source.name).to_string();
         let mut reader = csv::ReaderBuilder::new()
-            .delimiter(separator(&source.text))
+            .delimiter(separator(source.text.as_bytes()))
             .flexible(true)
             .trim(csv::Trim::All)
             .from_reader(source.text.as_bytes());
@@ -322,20 +322,6 @@ fn is_no_student(name: &str, canvas_id: &str) -> bool {
     (name.is_empty() && canvas_id.is_empty())
         || name.eq_ignore_ascii_case("points possible")
         || name.eq_ignore_ascii_case("student, test")
-}
-
-/// What separates the columns: the one of these that the first line has most of, outside quotes.
-fn separator(text: &str) -> u8 {
-    let line = text.lines().next().unwrap_or_default();
-    let mut quoted = false;
-    let mut counts = [(b',', 0_usize), (b';', 0), (b'\t', 0)];
-    for byte in line.bytes() {
-        quoted ^= byte == b'"';
-        if let Some((_, count)) = counts.iter_mut().find(|(one, _)| *one == byte && !quoted) {
-            *count += 1;
-        }
-    }
-    counts.into_iter().rev().max_by_key(|(_, count)| *count).map_or(b',', |(one, _)| one)
 }
 
 fn clipped(text: &str, most: usize) -> String {

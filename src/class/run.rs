@@ -22,6 +22,7 @@ use crate::reference::Reference;
 use crate::report::{ReportError, ReportKit};
 use crate::source::Finding;
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 use std::io;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -86,9 +87,8 @@ pub fn grade_class(
     job: &ClassJob<'_>,
     progress: &dyn Fn(Progress) -> ControlFlow<()>,
 ) -> Result<Outcome, ClassError> {
-    let reports = job.out.join("reports");
     let withheld = (job.release != Release::ALL).then(|| job.out.join("instructor"));
-    for folder in withheld.into_iter().chain([reports]) {
+    for folder in withheld.into_iter().chain([job.out.join("reports")]) {
         std::fs::create_dir_all(&folder).map_err(|error| ClassError::Write { path: folder, error })?;
     }
     let workplace = Workplace::open(job.out)?;
@@ -181,14 +181,16 @@ pub fn grade_class(
         let names = job.intake.files.iter().map(|file| file.name.as_str()).collect();
         outcome.decisions_without_answers.extend(marks.files_not_there(&names));
     }
-    outcome.removed_reports = remove_old_reports(job.out, &desk.kept, &statistics);
-    outcome.older_reports = older_reports(job.out, &statistics);
+    let reports = statistics.take_reports();
     let facts = NewFile::create(job.out.join("run.json"), &workplace.running())?;
     let index = NewFile::create(job.out.join("index.html"), &workplace.running())?;
     records.publish(&workplace)?;
     facts.write_all(RunFacts::of(job).to_text()?.as_bytes())?;
     gradebook_file.finish()?;
     index.write_all(job.kit.class_page(&statistics.summary()).as_bytes())?;
+    // Only now does no page link to them.
+    outcome.removed_reports = remove_old_reports(job.out, &desk.kept, &reports);
+    outcome.older_reports = older_reports(job.out, &reports);
     workplace.finish()?;
     Ok(outcome)
 }
@@ -256,7 +258,7 @@ fn rests_on(job: &ClassJob<'_>, others: &Others) -> Option<Fingerprint> {
 /// Removes reports of answers that are not there any more, if they are as polemark wrote them.
 ///
 /// How many.
-fn remove_old_reports(out: &Path, kept: &Kept, statistics: &Statistics) -> usize {
+fn remove_old_reports(out: &Path, kept: &Kept, written: &BTreeSet<String>) -> usize {
     let removed = kept.reports().filter(|(report, page)| {
         let plain = report
             .strip_prefix("reports/")
@@ -264,7 +266,7 @@ fn remove_old_reports(out: &Path, kept: &Kept, statistics: &Statistics) -> usize
             .is_some_and(|name| !name.contains(['/', '\\']));
         let path = out.join(report);
         plain
-            && !statistics.has_report(report)
+            && !written.contains(report)
             && is_as_it_was(&path, page)
             // One that cannot be removed is counted as an older report.
             && std::fs::remove_file(path).is_ok()
@@ -273,8 +275,8 @@ fn remove_old_reports(out: &Path, kept: &Kept, statistics: &Statistics) -> usize
 }
 
 /// Reports in the folder that this run did not write: of an earlier run, so possibly out of date.
-fn older_reports(out: &Path, statistics: &Statistics) -> usize {
+fn older_reports(out: &Path, written: &BTreeSet<String>) -> usize {
     let Ok(entries) = std::fs::read_dir(out.join("reports")) else { return 0 };
     let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
-    names.filter(|name| name.ends_with(".html") && !statistics.has_report(&format!("reports/{name}"))).count()
+    names.filter(|name| name.ends_with(".html") && !written.contains(&format!("reports/{name}"))).count()
 }

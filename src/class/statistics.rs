@@ -215,9 +215,9 @@ impl Statistics {
         &self.groups
     }
 
-    /// Whether this run wrote the report of this name, relative to the output folder.
-    pub fn has_report(&self, report: &str) -> bool {
-        self.reports.contains(report)
+    /// The reports of this run, relative to the output folder; they are not needed for the class page.
+    pub fn take_reports(&mut self) -> BTreeSet<String> {
+        std::mem::take(&mut self.reports)
     }
 
     /// At least 1, so that a mean over nobody is 0.

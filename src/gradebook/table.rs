@@ -1,3 +1,4 @@
+use crate::source::separator;
 use std::ops::Range;
 
 /// A CSV file of an LMS, as places in its bytes, so that what is not changed stays as it is.
@@ -147,23 +148,6 @@ impl<'a> Table<'a> {
             text.as_bytes().to_vec()
         }
     }
-}
-
-fn separator(bytes: &[u8]) -> u8 {
-    let mut counts = [(b',', 0_usize), (b';', 0), (b'\t', 0)];
-    let mut quoted = false;
-    for byte in bytes {
-        match byte {
-            b'"' => quoted = !quoted,
-            b'\r' | b'\n' if !quoted => break,
-            byte if !quoted => {
-                counts.iter_mut().filter(|(one, _)| one == byte).for_each(|(_, count)| *count += 1);
-            }
-            _ => {}
-        }
-    }
-    // The first of those with most: a comma where nothing parts anything.
-    counts.iter().rev().max_by_key(|(_, count)| *count).map_or(b',', |(one, _)| *one)
 }
 
 #[cfg(test)]

@@ -49,7 +49,6 @@ pub use grade::{grade, leave_to_a_person};
 pub use guard::Guard;
 pub use hand_marks::{
     Adjustment, AlikeMarks, Given, HandMarks, HandMarksFile, LateCost, LateRule, NO_ANSWER, Override,
-    separator,
 };
 pub use ledger::{Cause, Ledger, Loss, Spared};
 pub use scorecard::*;

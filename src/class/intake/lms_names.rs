@@ -22,13 +22,13 @@ pub struct HandedIn {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub attempt: Option<u64>,
     /// Canvas says so in the name; Moodle never does.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub late: bool,
     /// The group whose work it is, where the roster has a group of this name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub group: Option<String>,
     /// Names are hidden: whose it is stands in the file alone.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub anonymous: bool,
 }
 
@@ -198,10 +198,6 @@ pub fn without_resubmission(file: &str) -> (String, u64) {
         }
         _ => (file.to_owned(), 0),
     }
-}
-
-fn is_false(flag: &bool) -> bool {
-    !flag
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 use super::MarksStub;
 use crate::class::gradebook::disarmed;
-use crate::grading::{NO_ANSWER, separator};
+use crate::grading::NO_ANSWER;
+use crate::source::separator;
 use crate::source::{DecodeError, decode_within, sanitize};
 use std::collections::BTreeSet;
 
@@ -47,7 +48,7 @@ pub fn appended(before: &[u8], stub: &MarksStub) -> Result<(Vec<u8>, usize), Stu
         return Err(StubError::NotUtf8);
     }
     let is_new = text.trim().is_empty();
-    let delimiter = if is_new { b',' } else { separator(&text) };
+    let delimiter = if is_new { b',' } else { separator(text.as_bytes()) };
     let (columns, there) = if is_new { own_columns() } else { columns_and_rows(&text, delimiter)? };
     let ending = if text.contains("\r\n") { "\r\n" } else { "\n" };
     let mut out = before.to_vec();

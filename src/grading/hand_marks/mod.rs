@@ -10,7 +10,6 @@ mod yaml;
 
 pub use adjustment::{Adjustment, LateCost, LateRule};
 pub use decision::{Given, NO_ANSWER, Override};
-pub use table::separator;
 
 use crate::lab::{LabDefinition, Points, folded_id};
 use crate::names::nearest;

@@ -1,7 +1,7 @@
 use super::allowed::{Allowed, Findings};
 use super::{Adjustment, AlikeMarks, HandMarksFile, LateCost, LateRule, Override, quoted};
 use crate::lab::{Points, folded_id};
-use crate::source::{Finding, SourceText, Span, sanitize};
+use crate::source::{Finding, SourceText, Span, sanitize, separator};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -17,13 +17,6 @@ pub fn read(source: &SourceText, allowed: Allowed<'_>) -> (HandMarksFile, Vec<Fi
     let mut reader = Reader { allowed, findings: Findings::default(), seen: BTreeMap::new() };
     let file = reader.file(&source.text);
     (file, reader.findings.0)
-}
-
-/// The separator of a table whose first line is this: the one of which there are most.
-pub fn separator(text: &str) -> u8 {
-    let first = text.trim_start_matches('\u{feff}').lines().next().unwrap_or_default();
-    let count = |one: &u8| first.bytes().filter(|byte| byte == one).count();
-    [b',', b';', b'\t'].into_iter().rev().max_by_key(count).unwrap_or(b',')
 }
 
 struct Reader<'a> {
@@ -50,7 +43,7 @@ impl Reader<'_> {
         let mark = text.len() - text.trim_start_matches('\u{feff}').len();
         let body = &text[mark..];
         let mut table = csv::ReaderBuilder::new()
-            .delimiter(separator(text))
+            .delimiter(separator(text.as_bytes()))
             .flexible(true)
             .trim(csv::Trim::All)
             .from_reader(body.as_bytes());
