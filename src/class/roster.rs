@@ -1,5 +1,5 @@
 use crate::lab::folded_id;
-use crate::source::{self, DecodeError, SourceText, sanitize, separator};
+use crate::source::{self, DecodeError, SourceText, StrayQuote, sanitize, separator, stray_quote};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -66,9 +66,7 @@ pub enum RosterError {
     NotText { path: PathBuf, error: DecodeError },
     #[error("{name}:{line}: this is not CSV: {what}")]
     NotCsv { name: String, line: u64, what: String },
-    #[error(
-        "{name}:1: no column is called `id`: the first line names the columns, such as `id,name` (found {found})"
-    )]
+    #[error("{name}:1: no column is called `id`: the first line names the columns, such as `id,name`{found}")]
     NoId { name: String, found: String },
     #[error("{name}: nobody is on this list")]
     Empty { name: String },
@@ -124,8 +122,14 @@ impl Roster {
     /// `id`, and `name` or `first name` and `last name`. The separator is a comma, a semicolon or a tab, as in the first line.
     pub fn parse(source: &SourceText) -> Result<Self, RosterError> {
         let name = sanitize(&source.name).to_string();
+        let delimiter = separator(source.text.as_bytes());
+        if let Some(StrayQuote::NotClosed(at)) = stray_quote(source.text.as_bytes(), delimiter) {
+            let line = source.position(at).line as u64;
+            let what = "a quote is not closed, and everybody after it would be lost".to_owned();
+            return Err(RosterError::NotCsv { name, line, what });
+        }
         let mut reader = csv::ReaderBuilder::new()
-            .delimiter(separator(source.text.as_bytes()))
+            .delimiter(delimiter)
             .flexible(true)
             .trim(csv::Trim::All)
             .from_reader(source.text.as_bytes());
@@ -150,7 +154,11 @@ impl Roster {
         if ids.is_empty() {
             let found: Vec<String> =
                 header.iter().take(12).map(|one| format!("`{}`", clipped(one, MOST_OF_A_NAME))).collect();
-            return Err(RosterError::NoId { name, found: sanitize(&found.join(", ")).to_string() });
+            let found = match header.iter().all(str::is_empty) {
+                true => "; it is empty".to_owned(),
+                false => format!(" (found {})", sanitize(&found.join(", "))),
+            };
+            return Err(RosterError::NoId { name, found });
         }
         let canvas_id = if of_canvas { column(&["id"]) } else { column(CANVAS_ID) };
         let (whole, first, last) = (column(NAME), column(FIRST), column(LAST));
@@ -412,8 +420,12 @@ mod tests {
             ),
             ("id,name\n", "roster.csv: nobody is on this list"),
             (
+                "id;name\nEE-1;A\nEE-2;\"B\nEE-3;C\n",
+                "roster.csv:3: this is not CSV: a quote is not closed, and everybody after it would be lost",
+            ),
+            (
                 "",
-                "roster.csv:1: no column is called `id`: the first line names the columns, such as `id,name` (found )",
+                "roster.csv:1: no column is called `id`: the first line names the columns, such as `id,name`; it is empty",
             ),
         ] {
             assert_eq!(parse(text).unwrap_err().to_string(), message);

@@ -3,7 +3,7 @@ use super::intake::Aside;
 use super::outcome::Outcome;
 use super::record::{ItemRecord, Record, Status};
 use crate::english::listed;
-use crate::lab::{LabDefinition, Points};
+use crate::lab::{LabDefinition, Points, folded_id};
 use crate::report::{ClassRow, ClassSummary, IntakeEntry, IntakeKind, People, ReviewEntry, item_anchor};
 use crate::submission::Student;
 use std::collections::{BTreeMap, BTreeSet};
@@ -25,6 +25,7 @@ pub struct Statistics {
     answers: AnswersAlike,
     /// Of the record before.
     last_file: String,
+    /// Folded, as ids are compared.
     student_ids: BTreeSet<String>,
     /// (criterion, group) of every like answer.
     groups: BTreeSet<(String, String)>,
@@ -81,7 +82,7 @@ impl Statistics {
             self.analyse(record);
         }
         self.total += record.total.earned;
-        self.student_ids.extend(record.students.iter().map(|s| s.id.clone()));
+        self.student_ids.extend(record.students.iter().map(|s| folded_id(&s.id)));
         self.reports.extend([&record.report].into_iter().chain(&record.instructor).cloned());
         self.outcome.submissions += 1;
         self.outcome.possible = record.total.possible.as_f64();
@@ -207,7 +208,7 @@ impl Statistics {
 
     /// Which of `ids` nobody in the class has.
     pub fn absent<'a>(&self, ids: impl Iterator<Item = &'a str>) -> Vec<String> {
-        ids.filter(|id| !self.student_ids.contains(*id)).map(str::to_owned).collect()
+        ids.filter(|id| !self.student_ids.contains(&folded_id(id))).map(str::to_owned).collect()
     }
 
     /// (criterion, group) of every like answer of the class.

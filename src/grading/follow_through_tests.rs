@@ -406,7 +406,7 @@ fn a_person_has_the_last_word() {
     let answers = hanging(GRAVITY, &[("shape", "exponential growth"), ("stability", "marginally stable")]);
     let given = |id: &str, points| {
         let given = Override { points: Points(points), reason: "seen".to_owned(), answers: Vec::new() };
-        HandMarks { items: [(id.to_owned(), given)].into(), ..HandMarks::default() }
+        HandMarks { items: [(id.to_owned(), vec![given])].into(), ..HandMarks::default() }
     };
     // What a person takes is theirs to explain.
     let card = LAB.card(&answers, Some(&given(SHAPE, 25)));

@@ -509,7 +509,7 @@ mod tests {
             Override { points: Points(100), reason: "marked on paper".to_owned(), answers: Vec::new() };
         let hand = HandMarks {
             cover: [("viva".to_owned(), Points(3000))].into(),
-            items: [("speaker.nonlinearity.class".to_owned(), given)].into(),
+            items: [("speaker.nonlinearity.class".to_owned(), vec![given])].into(),
             ..HandMarks::default()
         };
         let card = leave_to_a_person(&lab().0, &submission(""), Some(&hand), "Our fault.");
@@ -633,8 +633,8 @@ mod tests {
                 .collect(),
             observed: lab.observed.iter().map(|row| (row.id.clone(), row.points)).collect(),
             items: [
-                ("expect_hanging.settles".to_owned(), given(75)),
-                ("saturation.plot".to_owned(), given(9_999)),
+                ("expect_hanging.settles".to_owned(), vec![given(75)]),
+                ("saturation.plot".to_owned(), vec![given(9_999)]),
             ]
             .into(),
             ..HandMarks::default()

@@ -1,8 +1,7 @@
 use super::MarksStub;
 use crate::class::gradebook::disarmed;
 use crate::grading::NO_ANSWER;
-use crate::source::separator;
-use crate::source::{DecodeError, decode_within, sanitize};
+use crate::source::{DecodeError, StrayQuote, decode_within, sanitize, separator, stray_quote};
 use std::collections::BTreeSet;
 
 /// The first columns are read, the others are for the reader.
@@ -49,6 +48,14 @@ pub fn appended(before: &[u8], stub: &MarksStub) -> Result<(Vec<u8>, usize), Stu
     }
     let is_new = text.trim().is_empty();
     let delimiter = if is_new { b',' } else { separator(text.as_bytes()) };
+    if let Some(StrayQuote::NotClosed(at) | StrayQuote::GoesOn(at)) = stray_quote(text.as_bytes(), delimiter)
+    {
+        let line = 1 + text[..at].matches('\n').count() as u64;
+        return Err(StubError::NotCsv {
+            line,
+            what: "a quote is not closed, or not at the end of its cell".to_owned(),
+        });
+    }
     let (columns, there) = if is_new { own_columns() } else { columns_and_rows(&text, delimiter)? };
     let ending = if text.contains("\r\n") { "\r\n" } else { "\n" };
     let mut out = before.to_vec();

@@ -129,6 +129,10 @@ fn a_table_gets_only_the_rows_that_are_not_there() {
         (&b"a,b\n1,2\n"[..], "must have the columns"),
         (b"\xff\xfei\0,\0", "not in UTF-8"),
         (b"item,points\n\xff\n", "not text in UTF-8"),
+        (
+            b"student_id,item,group,points,reason,answer\nA,viva,,3,\"x,\n",
+            "since line 2 is not CSV: a quote is not closed",
+        ),
     ] {
         let said = appended(before, &stub).unwrap_err().to_string();
         assert!(said.contains(error), "{said}");

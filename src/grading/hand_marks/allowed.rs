@@ -59,9 +59,7 @@ impl Findings {
 
     /// Hashes of answers, apart by spaces or commas; in tables with `#` before each.
     pub fn hashes(&mut self, text: &str, span: Span) -> Vec<String> {
-        let hashes =
-            text.split([' ', ',', ';', '\n', '\t', '#']).map(str::trim).filter(|hash| !hash.is_empty());
-        let hashes: Vec<String> = hashes.map(str::to_lowercase).collect();
+        let hashes: Vec<String> = apart(text).collect();
         let is_hash = |hash: &String| {
             hash == super::NO_ANSWER || (hash.len() == 16 && hash.chars().all(|c| c.is_ascii_hexdigit()))
         };
@@ -97,6 +95,12 @@ impl Findings {
     pub fn twice(&mut self, span: Span, what: &str) {
         self.report(Some(span), "marks.twice", format!("{what} twice."), Some("Keep one."));
     }
+}
+
+/// Hashes that stand in one place, as they are compared.
+pub fn apart(text: &str) -> impl Iterator<Item = String> {
+    let hashes = text.split([' ', ',', ';', '\n', '\t', '#']).map(str::trim);
+    hashes.filter(|hash| !hash.is_empty()).map(str::to_lowercase)
 }
 
 fn hundredths(text: &str) -> Option<Points> {

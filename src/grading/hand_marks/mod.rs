@@ -15,11 +15,13 @@ use crate::lab::{LabDefinition, Points, folded_id};
 use crate::names::nearest;
 use crate::source::{Finding, SourceText, Span, sanitize};
 use allowed::Allowed;
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// A person's decisions for groups of like answers: by criterion id, then by the group's id.
-pub type AlikeMarks = BTreeMap<String, BTreeMap<String, Override>>;
+/// A person's decisions for groups of like answers: by criterion id, then by the group's id. Several of one group are for
+/// different answers.
+pub type AlikeMarks = BTreeMap<String, BTreeMap<String, Vec<Override>>>;
 
 /// What a person gave one student.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
@@ -28,8 +30,8 @@ pub struct HandMarks {
     pub cover: BTreeMap<String, Points>,
     /// Rows of the observation sheet, by row id.
     pub observed: BTreeMap<String, Points>,
-    /// Criteria whose mark a person has decided, by criterion id.
-    pub items: BTreeMap<String, Override>,
+    /// Criteria whose mark a person has decided, by criterion id. Several of one criterion are for different answers.
+    pub items: BTreeMap<String, Vec<Override>>,
     /// Decisions for like answers of the whole class: for what is not in `items`.
     pub alike: Arc<AlikeMarks>,
     /// Points given or taken beside the cover sheet.
@@ -42,7 +44,8 @@ pub struct HandMarks {
 
 impl HandMarks {
     /// What a person decided for a criterion worth `most`: for this student's answer, else for answers like it. Points out of
-    /// range are not given. `answer` works out the hash of the answer.
+    /// range are not given. Of several decisions it is the last that was made for the answer, else the last. `answer` works out
+    /// the hash of the answer.
     pub(super) fn given(
         &self,
         criterion: &str,
@@ -50,11 +53,21 @@ impl HandMarks {
         alike: Option<&str>,
         answer: &dyn Fn() -> Option<String>,
     ) -> Option<Given<'_>> {
-        let of_group = || self.alike.get(criterion)?.get(alike?);
-        let in_range = |given: &&Override| (Points::ZERO..=most).contains(&given.points);
-        let given = self.items.get(criterion).filter(in_range).or_else(|| of_group().filter(in_range))?;
-        let is_for = given.answers.is_empty() || given.is_for(answer().as_deref());
-        Some(if is_for { Given::Applies(given) } else { Given::Held(given) })
+        let own = self.items.get(criterion).map_or(&[][..], Vec::as_slice);
+        let groups = || self.alike.get(criterion)?.get(alike?);
+        let hash = OnceCell::new();
+        let is_for =
+            |given: &Override| given.answers.is_empty() || given.is_for(hash.get_or_init(answer).as_deref());
+        for decisions in [own, groups().map_or(&[][..], Vec::as_slice)] {
+            let in_range = |given: &&Override| (Points::ZERO..=most).contains(&given.points);
+            let mut latest_first = decisions.iter().rev().filter(in_range).peekable();
+            if let Some(latest) = latest_first.peek().copied() {
+                return Some(
+                    latest_first.find(|given| is_for(given)).map_or(Given::Held(latest), Given::Applies),
+                );
+            }
+        }
+        None
     }
 
     /// Everything in which one student's marks can differ from another's, for comparing: decisions for groups aside.
@@ -67,7 +80,8 @@ impl HandMarks {
 /// A marks file: what a person gave, by student id.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct HandMarksFile {
-    students: BTreeMap<String, HandMarks>,
+    /// By the folded id, with the id as it is spelled.
+    students: BTreeMap<String, (String, HandMarks)>,
     /// What holds for whoever is not listed.
     others: HandMarks,
     /// Where the decisions for groups stand: (criterion, group).
@@ -109,20 +123,21 @@ impl HandMarksFile {
         };
         // Decisions for the class hold for everyone, listed or not.
         let (alike, late_rule) = (Arc::clone(&file.others.alike), file.others.late_rule.clone());
-        for marks in file.students.values_mut() {
+        for (_, marks) in file.students.values_mut() {
             marks.alike = Arc::clone(&alike);
             marks.late_rule.clone_from(&late_rule);
         }
         (file, findings)
     }
 
+    /// However the id is spelled.
     pub fn student(&self, id: &str) -> Option<&HandMarks> {
-        self.students.get(id)
+        self.students.get(&identity(id)).map(|(_, marks)| marks)
     }
 
     /// What counts for a student, listed or not.
     pub fn marks_for(&self, id: &str) -> &HandMarks {
-        self.students.get(id).unwrap_or(&self.others)
+        self.student(id).unwrap_or(&self.others)
     }
 
     /// Decisions for groups of like answers.
@@ -169,10 +184,16 @@ impl HandMarksFile {
         absent.map(finding).collect()
     }
 
-    /// In alphabetical order.
+    /// As they are spelled, in the order of the folded ids.
     pub fn student_ids(&self) -> impl Iterator<Item = &str> {
-        self.students.keys().map(String::as_str)
+        self.students.values().map(|(id, _)| id.as_str())
     }
+}
+
+/// Tells students apart, however their ids are spelled.
+fn identity(id: &str) -> String {
+    let folded = folded_id(id);
+    if folded.is_empty() { id.to_owned() } else { folded }
 }
 
 fn quoted(text: &str) -> String {

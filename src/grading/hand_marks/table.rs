@@ -1,8 +1,10 @@
-use super::allowed::{Allowed, Findings};
-use super::{Adjustment, AlikeMarks, HandMarksFile, LateCost, LateRule, Override, quoted};
+use super::allowed::{Allowed, Findings, apart};
+use super::{
+    Adjustment, AlikeMarks, HandMarks, HandMarksFile, LateCost, LateRule, Override, identity, quoted,
+};
 use crate::lab::{Points, folded_id};
-use crate::source::{Finding, SourceText, Span, sanitize, separator};
-use std::collections::BTreeMap;
+use crate::source::{Finding, SourceText, Span, StrayQuote, sanitize, separator, stray_quote};
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// Columns of a marks file in CSV, in the order polemark writes them. Others are the reader's own and are not read.
@@ -22,8 +24,8 @@ pub fn read(source: &SourceText, allowed: Allowed<'_>) -> (HandMarksFile, Vec<Fi
 struct Reader<'a> {
     allowed: Allowed<'a>,
     findings: Findings,
-    /// (student, item, group) of the decisions so far.
-    seen: BTreeMap<(String, String, String), u64>,
+    /// For each (student, item, group) that is decided so far, for which answers: none stands for any.
+    seen: BTreeMap<(String, String, String), Vec<BTreeSet<String>>>,
 }
 
 /// One row, its cells without spaces around.
@@ -42,8 +44,13 @@ impl Reader<'_> {
         let mut file = HandMarksFile::default();
         let mark = text.len() - text.trim_start_matches('\u{feff}').len();
         let body = &text[mark..];
+        let delimiter = separator(body.as_bytes());
+        if let Some(quote) = stray_quote(body.as_bytes(), delimiter) {
+            self.stray_quote(quote, text, mark);
+            return file;
+        }
         let mut table = csv::ReaderBuilder::new()
-            .delimiter(separator(text.as_bytes()))
+            .delimiter(delimiter)
             .flexible(true)
             .trim(csv::Trim::All)
             .from_reader(body.as_bytes());
@@ -104,6 +111,31 @@ impl Reader<'_> {
         self.findings.report(Some(line_at(text, at)), "marks.csv", message, None);
     }
 
+    /// Rows may have gone into a cell, and with them marks: nothing of the table is read.
+    fn stray_quote(&mut self, quote: StrayQuote, text: &str, mark: usize) {
+        let (at, message) = match quote {
+            StrayQuote::NotClosed(at) => (at, "This quote is not closed: every row after it would be lost."),
+            StrayQuote::GoesOn(at) => (at, "Behind the closing quote of this cell stands more text."),
+        };
+        let help = "Put a quote at both ends of the cell, and write a quote inside it twice.";
+        self.findings.report(Some(line_at(text, mark + at)), "marks.csv", message.to_owned(), Some(help));
+    }
+
+    /// Whether a decision was made before, for the same answers or for any.
+    fn is_twice(&mut self, row: &Row) -> bool {
+        let Row { student, item, group, answer, .. } = row;
+        let of_file = if item == "is" { answer.as_str() } else { "" };
+        let key = (folded_id(student), item.clone(), format!("{group}{of_file}"));
+        let answers: BTreeSet<String> = match self.allowed.items.contains_key(item.as_str()) {
+            true => apart(answer).collect(),
+            false => BTreeSet::new(),
+        };
+        let before = self.seen.entry(key).or_default();
+        let twice = before.iter().any(|one| one.is_empty() || answers.is_empty() || *one == answers);
+        before.push(answers);
+        twice
+    }
+
     fn row(&mut self, row: &Row, file: &mut HandMarksFile, alike: &mut AlikeMarks) {
         let Row { student, item, group, points, reason, answer, span } = row;
         if [student, item, group, points].into_iter().all(String::is_empty) {
@@ -111,9 +143,14 @@ impl Reader<'_> {
         }
         let given = !points.is_empty();
         let said = given || (matches!(item.as_str(), "is" | "counts") && !answer.is_empty());
-        let key =
-            (folded_id(student), item.clone(), format!("{group}{}", if item == "is" { answer } else { "" }));
-        if said && item != "adjustment" && self.seen.insert(key, 0).is_some() {
+        if item.is_empty() {
+            let help =
+                "The column `item` has a criterion, `viva`, `observed.<row>` or another name from the stub.";
+            let message = "What these points are for is missing.".to_owned();
+            self.findings.report(Some(*span), "marks.shape", message, Some(help));
+            return;
+        }
+        if said && item != "adjustment" && self.is_twice(row) {
             self.findings.twice(*span, &format!("{} is decided", quoted(item)));
         }
         match (item.as_str(), student.is_empty(), group.is_empty()) {
@@ -127,7 +164,7 @@ impl Reader<'_> {
                 file.groups.insert((item.clone(), group.clone()), *span);
                 let name = format!("{item}/{group}");
                 if let Some(given) = self.decision(row, (Points::ZERO, most), &name) {
-                    alike.entry(item.clone()).or_default().insert(group.clone(), given);
+                    alike.entry(item.clone()).or_default().entry(group.clone()).or_default().push(given);
                 }
             }
             (_, true, true) => {
@@ -156,7 +193,8 @@ impl Reader<'_> {
             (self.allowed.cover.get(item.as_str()), item.strip_prefix("observed."));
         let observed = row_name.map(|name| (name, self.allowed.observed.get(name).copied()));
         let range = |most| (Points::ZERO, most);
-        let marks = file.students.entry(student.clone()).or_default();
+        let (_, marks) =
+            file.students.entry(identity(student)).or_insert_with(|| (student.clone(), HandMarks::default()));
         match (item.as_str(), box_of_cover.copied(), observed) {
             (_, Some(most), _) => {
                 if let Some(points) = self.points(points, *span, range(most), item) {
@@ -190,7 +228,7 @@ impl Reader<'_> {
             _ => {
                 let Some(most) = self.criterion(item, *span) else { return };
                 if let Some(given) = self.decision(row, range(most), item) {
-                    marks.items.insert(item.clone(), given);
+                    marks.items.entry(item.clone()).or_default().push(given);
                 }
             }
         }

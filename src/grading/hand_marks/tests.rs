@@ -34,7 +34,7 @@ fn everything_a_person_gives() {
     let marks = file.student("EE-001").unwrap();
     assert_eq!(marks.cover["viva"], Points(3000));
     assert_eq!((marks.observed["realization"], marks.observed["teamwork"]), (Points(400), Points(450)));
-    let item = &marks.items["hanging.transfer_function.denominator"];
+    let item = &marks.items["hanging.transfer_function.denominator"][0];
     assert_eq!((item.points, item.reason.as_str()), (Points(150), "slip in the last step"));
     assert_eq!(file.student("EE-002"), Some(&HandMarks::default()));
     assert_eq!(file.student("EE-003"), None);
@@ -100,6 +100,10 @@ fn what_does_not_fit_is_said_and_where() {
         ("alike: {expect_hanging.settles: {text-1: {points: 1}}}", "1:34 marks.reason_missing "),
         ("alike: {expect_hanging.settles: {text-1: {reason: x}}}", "1:34 marks.points_missing "),
         ("students: {A: {viva: 1}", "1:"),
+        (
+            "students: {EE-1: {viva: 1}, ee 1: {viva: 2}}",
+            "1:29 marks.twice `ee 1`, who is also `EE-1`, has marks twice.",
+        ),
         ("late: 5", "1:7 marks.shape What it costs"),
         ("late: {points: 5, percent: 10}", "1:7 marks.shape `late` takes points or a percentage"),
         ("late: {percent: 110}", "1:17 marks.points_out_of_range "),
@@ -150,7 +154,7 @@ fn what_settles_and_what_adjusts() {
         (marks.late_rule.as_ref(), file.marks_for("?").late_rule.as_ref()),
         (Some(&rule), Some(&rule))
     );
-    let decided = &file.alike()["expect_hanging.settles"]["text-1"];
+    let decided = &file.alike()["expect_hanging.settles"]["text-1"][0];
     assert_eq!(decided.answers, ["3f2a91c05be7d410", "none"]);
     let names = ["c.yaml", "d.yaml"].into();
     let absent: Vec<_> = file.files_not_there(&names).into_iter().map(|finding| finding.message).collect();
@@ -226,6 +230,22 @@ fn what_does_not_fit_in_a_table_is_said_and_where() {
         (row(",viva,,3,,"), "3:1 marks.shape Whose mark"),
         (row("EE-1,viva,,3,,\nEE-1,viva,,4,,"), "4:1 marks.twice "),
         (row("EE-1,late,,perhaps,,"), "3:1 marks.shape "),
+        (row("EE-1,,,3,,"), "3:1 marks.shape What these points are for is missing."),
+        (row("EE-1,viva,,3,,\nee 1,viva,,4,,"), "4:1 marks.twice "),
+        (row("EE-1,viva,,3,\"ok,\nEE-2,viva,,4,,"), "3:14 marks.csv This quote is not closed"),
+        (row("EE-1,viva,,3,\"ok,\nEE-2,viva,,4,\"fine\","), "3:14 marks.csv Behind the closing quote"),
+        (
+            row(
+                "EE-1,battery.nonlinearity.class,,1,x,#3f2a91c05be7d410\nEE-1,battery.nonlinearity.class,,0,x,3F2A91C05BE7D410",
+            ),
+            "4:1 marks.twice ",
+        ),
+        (
+            row(
+                "EE-1,battery.nonlinearity.class,,1,x,#3f2a91c05be7d410\nEE-1,battery.nonlinearity.class,,0,x,",
+            ),
+            "4:1 marks.twice ",
+        ),
     ] {
         check_as("marks.csv", &[(&text, want)]);
     }
@@ -242,4 +262,40 @@ fn the_examples_of_the_manual_are_read() {
         assert_eq!(file.marks_for("EE-001").adjustments.len(), 1, "{name}");
         assert_eq!(file.whose("upload.yaml"), Some(["EE-007".to_owned()].as_slice()), "{name}");
     }
+}
+
+#[test]
+fn a_student_is_known_however_the_id_is_spelled() {
+    let (file, findings) = parse("students: {ee 001: {viva: 30}, ---: {viva: 3}}");
+    assert!(findings.is_empty(), "{findings:?}");
+    for id in ["EE-001", "ee001", "ee 001"] {
+        assert_eq!(file.marks_for(id).cover.get("viva"), Some(&Points(3000)), "{id}");
+    }
+    assert_eq!(file.marks_for("---").cover["viva"], Points(300));
+    assert!(file.marks_for("--").cover.is_empty());
+    assert_eq!(file.student_ids().collect::<Vec<_>>(), ["---", "ee 001"]);
+}
+
+#[test]
+fn of_several_decisions_the_one_for_this_answer_counts() {
+    let rows = "EE-1,battery.nonlinearity.class,,0.25,old,#1111111111111111\nEE-1,battery.nonlinearity.class,,0.75,new,#2222222222222222 \
+                #3333333333333333\n,expect_hanging.settles,text-1,0.25,old,#1111111111111111\n,expect_hanging.settles,text-1,0.75,new,#1111111111111111 \
+                #2222222222222222\n";
+    let (file, findings) =
+        parse_as("marks.csv", &format!("student_id,item,group,points,reason,answer\n{rows}"));
+    assert!(findings.is_empty(), "{findings:?}");
+    let check = |criterion: &str, answer: &str, want: (&str, i64)| {
+        let hash = || Some(answer.repeat(16));
+        let given = file.marks_for("EE-1").given(criterion, Points(100), Some("text-1"), &hash).unwrap();
+        let found = match given {
+            Given::Applies(given) => ("applies", given.points.0),
+            Given::Held(given) => ("held", given.points.0),
+        };
+        assert_eq!(found, want, "{criterion} {answer}");
+    };
+    check("battery.nonlinearity.class", "1", ("applies", 25));
+    check("battery.nonlinearity.class", "3", ("applies", 75));
+    check("battery.nonlinearity.class", "4", ("held", 75));
+    check("expect_hanging.settles", "1", ("applies", 75));
+    check("expect_hanging.settles", "4", ("held", 75));
 }

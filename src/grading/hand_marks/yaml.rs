@@ -1,5 +1,7 @@
 use super::allowed::{Allowed, Findings};
-use super::{Adjustment, AlikeMarks, HandMarks, HandMarksFile, LateCost, LateRule, Override, quoted};
+use super::{
+    Adjustment, AlikeMarks, HandMarks, HandMarksFile, LateCost, LateRule, Override, identity, quoted,
+};
 use crate::lab::{Points, folded_id};
 use crate::source::{self, Finding, Node, SourceText, Span, Value};
 use std::sync::Arc;
@@ -39,8 +41,12 @@ impl Reader<'_> {
                         self.mapping(value, "Under `students` stand ids, each with its marks.")
                     {
                         let marks = self.student(id, marks, &mut file);
-                        if file.students.insert(id.clone(), marks).is_some() {
-                            self.findings.twice(*span, &format!("{} has marks", quoted(id)));
+                        if let Some((other, _)) = file.students.insert(identity(id), (id.clone(), marks)) {
+                            let who = match other == *id {
+                                true => quoted(id),
+                                false => format!("{}, who is also {},", quoted(id), quoted(&other)),
+                            };
+                            self.findings.twice(*span, &format!("{who} has marks"));
                         }
                     }
                 }
@@ -69,7 +75,7 @@ impl Reader<'_> {
                     let what = format!("The group {} of `{criterion}` is decided", quoted(group));
                     self.findings.twice(*span, &what);
                 }
-                alike.entry(criterion.clone()).or_default().insert(group.clone(), given);
+                alike.entry(criterion.clone()).or_default().insert(group.clone(), vec![given]);
             }
         }
         alike
@@ -187,7 +193,7 @@ impl Reader<'_> {
                             continue;
                         };
                         if let Some(given) = self.item(value, *span, most, item) {
-                            marks.items.insert(item.clone(), given);
+                            marks.items.insert(item.clone(), vec![given]);
                         }
                     }
                 }
