@@ -1,7 +1,7 @@
 //! polemark marks control-systems lab reports from the equations up.
 //!
 //! ```text
-//!    names    english        which known name a mistyped one is nearest to · lists and capitals in messages
+//!    names    english  memo  which known name a mistyped one is nearest to · lists and capitals in messages · what is kept
 //!     │
 //!   algebra                  exact rationals, polynomials, expressions
 //!     │           source     text with places in it: spans, findings, a YAML tree
@@ -25,6 +25,7 @@
 //! A module imports from modules above it, never from below.
 
 mod english;
+mod memo;
 mod names;
 
 pub mod algebra;

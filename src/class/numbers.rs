@@ -1,10 +1,10 @@
 use crate::grading::Catalogue;
 use crate::lab::{LabDefinition, StudentEdition, SystemRef, Variant, VariantRule};
+use crate::memo::Memo;
 use crate::reference::Reference;
 use crate::report::{ReportError, ReportKit};
 use crate::submission::{AnswerSheet, Submission};
-use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 /// By whose numbers a submission is marked.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -78,24 +78,24 @@ pub struct Bench {
 }
 
 impl Bench {
-    /// `own` is the whole reference of the lab's own values. Errors: in words, what does not work with these numbers.
-    fn new(lab: Arc<LabDefinition>, own: &Reference, kit: &ReportKit) -> Result<Self, String> {
-        let reference = Reference::for_marking(&lab, own).map_err(|error| error.to_string())?;
-        let catalogue = Catalogue::new(&lab, &reference);
+    /// `of` are those of the lab's own values. Errors: in words, what does not work with these numbers.
+    fn new(lab: Arc<LabDefinition>, of: &Benches<'_>) -> Result<Self, String> {
+        let Benches { reference, catalogue, kit, .. } = of;
+        let reference = Reference::for_marking(&lab, reference).map_err(|error| error.to_string())?;
+        let catalogue = catalogue.with_numbers(&lab, &reference);
         let kit = kit.with_numbers(&lab, &reference).map_err(|error| error.to_string())?;
         Ok(Self { lab, reference, catalogue, kit })
     }
 }
 
-/// Labs with the values of variants, and benches: made when they are needed; the most lately used are kept.
-///
-/// What is kept decides how long a run takes, never what comes out.
+/// Labs with the values of variants, and benches: made when they are needed.
 pub struct Benches<'a> {
     lab: &'a LabDefinition,
     reference: &'a Reference,
+    catalogue: &'a Catalogue,
     kit: &'a ReportKit,
-    labs: Kept<Arc<LabDefinition>>,
-    benches: Kept<Bench>,
+    labs: Memo<Variant, Result<Arc<LabDefinition>, String>>,
+    benches: Memo<Variant, Result<Bench, String>>,
 }
 
 /// Kept at a time. A bench takes a megabyte or a few, a lab a tenth of that; as many labs as are read before they are marked.
@@ -103,74 +103,28 @@ const MOST_BENCHES: usize = 24;
 const MOST_LABS: usize = 96;
 
 impl<'a> Benches<'a> {
-    /// `reference` is that of the lab's own values, whole.
-    pub fn new(lab: &'a LabDefinition, reference: &'a Reference, kit: &'a ReportKit) -> Self {
-        Self { lab, reference, kit, labs: Kept::new(MOST_LABS), benches: Kept::new(MOST_BENCHES) }
+    /// All of these are those of the lab's own values, the reference whole.
+    pub fn new(
+        lab: &'a LabDefinition,
+        reference: &'a Reference,
+        catalogue: &'a Catalogue,
+        kit: &'a ReportKit,
+    ) -> Self {
+        Self { lab, reference, catalogue, kit, labs: Memo::of(MOST_LABS), benches: Memo::of(MOST_BENCHES) }
     }
 
     /// Errors: in words, what does not work with these values.
     pub fn lab(&self, variant: &Variant) -> Arc<Result<Arc<LabDefinition>, String>> {
-        self.labs.get(variant, || {
+        self.labs.get(variant.clone(), |variant| {
             self.lab.with_variant(variant).map(Arc::new).map_err(|errors| errors.to_string())
         })
     }
 
     pub fn get(&self, variant: &Variant) -> Arc<Result<Bench, String>> {
-        self.benches.get(variant, || match &*self.lab(variant) {
-            Ok(lab) => Bench::new(Arc::clone(lab), self.reference, self.kit),
+        self.benches.get(variant.clone(), |variant| match &*self.lab(variant) {
+            Ok(lab) => Bench::new(Arc::clone(lab), self),
             Err(why) => Err(why.clone()),
         })
-    }
-}
-
-/// The most lately used of what variants need.
-struct Kept<T> {
-    most: usize,
-    shelf: Mutex<Shelf<T>>,
-}
-
-struct Shelf<T> {
-    clock: u64,
-    kept: BTreeMap<Variant, (u64, Arc<Result<T, String>>)>,
-}
-
-impl<T> Kept<T> {
-    fn new(most: usize) -> Self {
-        Self { most, shelf: Mutex::new(Shelf { clock: 0, kept: BTreeMap::new() }) }
-    }
-
-    fn get(&self, variant: &Variant, make: impl FnOnce() -> Result<T, String>) -> Arc<Result<T, String>> {
-        if let Some(known) = self.shelf().find(variant) {
-            return known;
-        }
-        // Two threads may make the same one: both are the same, and neither waits.
-        let made = Arc::new(make());
-        self.shelf().keep(variant, &made, self.most);
-        made
-    }
-
-    /// What is kept is whole even if somebody failed while looking.
-    fn shelf(&self) -> std::sync::MutexGuard<'_, Shelf<T>> {
-        self.shelf.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
-impl<T> Shelf<T> {
-    fn find(&mut self, variant: &Variant) -> Option<Arc<Result<T, String>>> {
-        self.clock += 1;
-        let (used, known) = self.kept.get_mut(variant)?;
-        *used = self.clock;
-        Some(Arc::clone(known))
-    }
-
-    fn keep(&mut self, variant: &Variant, made: &Arc<Result<T, String>>, most: usize) {
-        self.clock += 1;
-        self.kept.insert(variant.clone(), (self.clock, Arc::clone(made)));
-        while self.kept.len() > most {
-            let oldest = self.kept.iter().min_by_key(|(_, (used, _))| *used);
-            let Some(oldest) = oldest.map(|(variant, _)| variant.clone()) else { return };
-            self.kept.remove(&oldest);
-        }
     }
 }
 

@@ -105,7 +105,7 @@ pub fn grade_class(
     let mut others = pool.install(|| Others::new(job));
     let desk = Desk {
         job,
-        benches: Benches::new(job.lab, job.reference, job.kit),
+        benches: Benches::new(job.lab, job.reference, job.catalogue, job.kit),
         without: WithoutNumbers::new(job.lab, job.reference, job.kit)?,
         kept: if job.from_scratch { Kept::nothing() } else { Kept::open(job.out, &workplace) },
         run: rests_on(job, &others),

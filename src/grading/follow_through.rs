@@ -14,6 +14,7 @@ use crate::lab::{Check, Criterion, Curve, Described, LabDefinition, Points, Ques
 use crate::lti::TransferFunction;
 use crate::submission::{AnswerValue, stability_name};
 use std::cell::OnceCell;
+use std::sync::Arc;
 
 /// How an answer stands to the student's own earlier answer, on which it rests.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -162,7 +163,7 @@ impl Follower<'_> {
         let (guard, ways) = function.model.get_or_init(|| {
             let truth = Truth::Reference(self.grader.reference).poles(function.of);
             let asked = truth.iter().map(|one| one.denominator.degree()).max().unwrap_or(0);
-            let ways = OwnModel::ways(function.typed, asked + guard::HIGHER);
+            let ways = self.grader.catalogue.own_models(function.typed, asked + guard::HIGHER);
             let tolerance = coefficient_tolerance(self.lab, function.of);
             let guard = ways.first().map_or(Guard::Order, |short| {
                 guard::of_function(&short.function, self.grader.reference, function.of, &tolerance)
@@ -431,7 +432,7 @@ struct OwnFunction<'a> {
     /// Another operating point explains it, and a single slip does as well.
     may_be_a_slip: bool,
     /// Whether it may be followed, and the ways to take it; worked out when it is needed, and once.
-    model: OnceCell<(Guard, Vec<OwnModel>)>,
+    model: OnceCell<(Guard, Arc<Vec<OwnModel>>)>,
 }
 
 /// The first readable transfer function of each system, in the order of the lab.

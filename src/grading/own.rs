@@ -3,7 +3,7 @@ use super::poles::ExpectedPoles;
 use super::transfer_function::without_residue;
 use crate::lti::{InputKind, Pole, ResponseError, RootError, Stability, TransferFunction, roots, stability};
 use crate::reference::ResponseReference;
-use std::cell::OnceCell;
+use std::sync::OnceLock;
 
 /// A student's own model, and what follows from it; worked out when it is first asked for, and once.
 ///
@@ -12,9 +12,9 @@ use std::cell::OnceCell;
 pub(super) struct OwnModel {
     pub function: TransferFunction,
     pub stability: Stability,
-    poles: OnceCell<Result<Vec<Pole>, RootError>>,
-    impulse: OnceCell<Result<ResponseReference, ResponseError>>,
-    step: OnceCell<Result<ResponseReference, ResponseError>>,
+    poles: OnceLock<Result<Vec<Pole>, RootError>>,
+    impulse: OnceLock<Result<ResponseReference, ResponseError>>,
+    step: OnceLock<Result<ResponseReference, ResponseError>>,
 }
 
 impl OwnModel {

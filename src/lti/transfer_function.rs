@@ -2,7 +2,7 @@ use super::{Pole, RootError, roots};
 use crate::algebra::{Polynomial, polynomial_mathml, polynomial_text};
 
 /// `num` over `den` in s, exact; nothing is cancelled unasked. `den` is never zero.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct TransferFunction {
     pub num: Polynomial,
     pub den: Polynomial,

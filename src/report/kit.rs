@@ -1,4 +1,5 @@
 use super::anchor::question_anchor;
+use super::drawn::Drawn;
 use super::figure::FigureError;
 use super::figures::parting_words;
 use super::pictures::{self, Picture};
@@ -19,6 +20,7 @@ pub struct ReportKit {
     pub(super) lab: LabDefinition,
     pub(super) reference: Reference,
     pub(super) questions: Vec<QuestionKit>,
+    pub(super) drawn: Drawn,
 }
 
 /// A question, ready to be shown.
@@ -50,6 +52,10 @@ pub enum ReportError {
     Template { name: &'static str, source: minijinja::Error },
 }
 
+/// Bytes of students' figures that are kept; where students have numbers of their own there are many kits.
+const MOST_DRAWN: usize = 32 << 20;
+const MOST_DRAWN_OF_MANY: usize = 1 << 20;
+
 const TEMPLATES: [(&str, &str); 9] = [
     ("base.html", include_str!("../../templates/base.html")),
     ("parts.html", include_str!("../../templates/parts.html")),
@@ -65,22 +71,24 @@ const TEMPLATES: [(&str, &str); 9] = [
 impl ReportKit {
     /// Errors: a reference curve that cannot be drawn.
     pub fn new(lab: &LabDefinition, reference: &Reference) -> Result<Self, ReportError> {
-        Self::within(environment()?, lab, reference)
+        Self::within(environment()?, lab, reference, MOST_DRAWN)
     }
 
     /// The same for a lab with other numbers, and what is right by them.
     pub fn with_numbers(&self, lab: &LabDefinition, reference: &Reference) -> Result<Self, ReportError> {
-        Self::within(self.environment.clone(), lab, reference)
+        Self::within(self.environment.clone(), lab, reference, MOST_DRAWN_OF_MANY)
     }
 
     fn within(
         environment: Environment<'static>,
         lab: &LabDefinition,
         reference: &Reference,
+        most_drawn: usize,
     ) -> Result<Self, ReportError> {
         let questions =
             lab.questions.iter().map(|q| QuestionKit::new(lab, reference, q)).collect::<Result<_, _>>()?;
-        Ok(Self { environment, lab: lab.clone(), reference: reference.clone(), questions })
+        let drawn = Drawn::new(most_drawn);
+        Ok(Self { environment, lab: lab.clone(), reference: reference.clone(), questions, drawn })
     }
 }
 

@@ -9,6 +9,7 @@ mod class_summary;
 mod compare_page;
 mod conflicts;
 mod derivation;
+mod drawn;
 mod escape;
 #[cfg(test)]
 mod explaining_tests;

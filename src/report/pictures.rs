@@ -2,6 +2,7 @@
 
 use super::anchor::anchor;
 use super::answers::find;
+use super::drawn::{Drawn, Shown};
 use super::figure::{Figure, FigureError};
 use super::figures::{
     PreparedResponse, PreparedSimulation, StudentCurves, StudentRoots, characteristic_figure,
@@ -123,34 +124,38 @@ pub fn of_question(
 
 impl Picture {
     /// The figures as this student sees them. What cannot be drawn falls back on the reference alone, and says why.
-    pub fn for_student(&self, submission: &Submission) -> Vec<FigureView> {
+    pub fn for_student(&self, submission: &Submission, drawn: &Drawn) -> Vec<FigureView> {
         match self {
             Self::Fixed(view) => vec![view.clone()],
-            Self::PoleZero(picture) => vec![picture.for_student(submission)],
-            Self::Response(picture) => picture.for_student(submission),
-            Self::Simulation(picture) => match series(submission, picture.data_field.as_deref()) {
-                None => vec![picture.shared.clone()],
-                data => vec![
-                    draw(&picture.prepared.figure(data), &picture.id)
-                        .unwrap_or_else(|_| picture.shared.clone()),
-                ],
-            },
+            Self::PoleZero(picture) => picture.for_student(submission, drawn),
+            Self::Response(picture) => picture.for_student(submission, drawn),
+            Self::Simulation(picture) => picture.for_student(submission, drawn),
         }
     }
 }
 
 impl PoleZeroPicture {
-    fn for_student(&self, submission: &Submission) -> FigureView {
-        let mut student = StudentRoots::default();
+    fn for_student(&self, submission: &Submission, drawn: &Drawn) -> Vec<FigureView> {
         let own = own_transfer_function(submission, self.transfer_function_field.as_deref());
+        let listed: Vec<(f64, f64)> = match value(submission, self.poles_field.as_deref()) {
+            Some(AnswerValue::Poles(listed)) => {
+                listed.iter().map(|p| (to_f64(&p.re.value), to_f64(&p.im.value))).collect()
+            }
+            _ => Vec::new(),
+        };
+        if own.is_none() && listed.is_empty() {
+            return vec![self.shared.clone()];
+        }
+        let shown = Shown::new(&self.id, own).with_poles(&listed);
+        drawn.figures.get(shown, |_| vec![self.draw(own, listed)]).to_vec()
+    }
+
+    fn draw(&self, own: Option<&TransferFunction>, listed: Vec<(f64, f64)>) -> FigureView {
+        let mut student = StudentRoots { listed, ..StudentRoots::default() };
         if let Some(g) = own
-            && let (Ok(poles), Ok(zeros)) = (g.poles(), roots_of_numerator(g))
+            && let (Ok(poles), Ok(zeros)) = (g.poles(), g.zeros())
         {
             (student.poles, student.zeros) = (poles, zeros);
-        }
-        let listed = value(submission, self.poles_field.as_deref());
-        if let Some(AnswerValue::Poles(listed)) = listed {
-            student.listed = listed.iter().map(|p| (to_f64(&p.re.value), to_f64(&p.im.value))).collect();
         }
         if student == StudentRoots::default() {
             return self.shared.clone();
@@ -161,30 +166,46 @@ impl PoleZeroPicture {
 }
 
 impl ResponsePicture {
-    fn for_student(&self, submission: &Submission) -> Vec<FigureView> {
+    fn for_student(&self, submission: &Submission, drawn: &Drawn) -> Vec<FigureView> {
+        let own = own_transfer_function(submission, self.transfer_function_field.as_deref());
         let data = series(submission, self.data_field.as_deref());
-        let own = own_transfer_function(submission, self.transfer_function_field.as_deref())
-            .map(|g| Response::new(g, self.kind));
-        let (own, trouble) = match own {
-            None => (None, String::new()),
-            Some(Ok(response)) => (Some(response), String::new()),
-            Some(Err(e)) => {
-                (None, format!("The response of your transfer function cannot be drawn: {}.", why(&e)))
-            }
-        };
-        if own.is_none() && data.is_none() && trouble.is_empty() {
+        if own.is_none() && data.is_none() {
             return self.shared.clone();
         }
-        let figures = self.prepared.figures(StudentCurves { own: own.as_ref(), data });
+        let shown = Shown::new(&self.id, own).with_data(data);
+        drawn.figures.get(shown, |_| self.draw(own, data, drawn)).to_vec()
+    }
+
+    fn draw(&self, own: Option<&TransferFunction>, data: Option<&Series>, drawn: &Drawn) -> Vec<FigureView> {
+        let curves = own.map(|g| {
+            drawn.curves.get((self.id.clone(), g.clone()), |(_, g)| {
+                let response = Response::new(g, self.kind).map_err(|error| why(&error))?;
+                Ok(self.prepared.own_curves(&response))
+            })
+        });
+        let curves = curves.as_deref();
+        let own = curves.and_then(|curves| curves.as_ref().ok());
+        let figures = self.prepared.figures(StudentCurves { own, data });
         let mut views = views(&figures, &self.id).unwrap_or_else(|_| self.shared.clone());
-        if let Some(first) = views.first_mut()
-            && !trouble.is_empty()
-        {
+        if let (Some(first), Some(Err(why))) = (views.first_mut(), curves) {
+            let trouble = format!("The response of your transfer function cannot be drawn: {why}.");
             first.caption = format!("{trouble} {}", first.caption).trim().to_owned();
         }
-        let alone = own.as_ref().and_then(|own| self.prepared.own_figure(own));
-        views.extend(alone.and_then(|figure| draw(&figure, &format!("{}-own", self.id)).ok()));
+        let alone = own.and_then(|own| own.alone.as_ref());
+        views.extend(alone.and_then(|figure| draw(figure, &format!("{}-own", self.id)).ok()));
         views
+    }
+}
+
+impl SimulationPicture {
+    fn for_student(&self, submission: &Submission, drawn: &Drawn) -> Vec<FigureView> {
+        let Some(data) = series(submission, self.data_field.as_deref()) else {
+            return vec![self.shared.clone()];
+        };
+        let shown = Shown::new(&self.id, None).with_data(Some(data));
+        let figure =
+            || draw(&self.prepared.figure(Some(data)), &self.id).unwrap_or_else(|_| self.shared.clone());
+        drawn.figures.get(shown, |_| vec![figure()]).to_vec()
     }
 }
 
@@ -282,9 +303,4 @@ fn series<'a>(submission: &'a Submission, field: Option<&str>) -> Option<&'a Ser
         AnswerValue::Data(series) if !series.rows.is_empty() => Some(series),
         _ => None,
     }
-}
-
-/// The zeros; none for a numerator that is zero itself.
-fn roots_of_numerator(g: &TransferFunction) -> Result<Vec<Pole>, crate::lti::RootError> {
-    if g.num.is_zero() { Ok(Vec::new()) } else { g.zeros() }
 }

@@ -124,7 +124,7 @@ pub fn page(
         total: TallyView::new(&scorecard.total),
         ledger: if marks && feedback { ledger::view(lab, scorecard) } else { None },
         legend: VerdictView::legend(),
-        questions: questions.map(|(q, kit)| question(lab, q, kit, submission, scorecard, release)).collect(),
+        questions: questions.map(|(q, own)| question(kit, q, own, submission, scorecard, release)).collect(),
         observed: lab.observed.iter().map(|row| observed(row, scorecard, marks)).collect(),
         observed_levels: lab.observed.first().map(level_titles).unwrap_or_default(),
         outcomes: lab
@@ -214,9 +214,9 @@ fn cover(lab: &LabDefinition, scorecard: &Scorecard, marks: bool) -> Vec<BoxView
 }
 
 fn question(
-    lab: &LabDefinition,
+    kit: &ReportKit,
     question: &Question,
-    kit: &QuestionKit,
+    own: &QuestionKit,
     submission: &Submission,
     scorecard: &Scorecard,
     release: Release,
@@ -224,7 +224,7 @@ fn question(
     let score = scorecard.questions.iter().find(|s| s.id == question.id);
     let unscored = Tally { possible: question.points, ..Tally::default() };
     let (mut short_answers, mut long_answers) = (Vec::new(), Vec::new());
-    for field in &kit.fields {
+    for field in &own.fields {
         let answer = submission.answers.get(&field.path);
         let (marks, conflicts) = match (score, answer.map(|a| &a.value)) {
             (Some(score), Some(Ok(AnswerValue::Prose(text)))) => {
@@ -254,23 +254,23 @@ fn question(
         }
     }
     QuestionView {
-        anchor: kit.anchor.clone(),
+        anchor: own.anchor.clone(),
         number: question.number.clone(),
         title: question.title.clone(),
-        text_html: kit.text_html.clone(),
+        text_html: own.text_html.clone(),
         tally: TallyView::new(score.map_or(&unscored, |s| &s.tally)),
         short_answers,
         long_answers,
         // Each has a reference curve in it.
         figures: match release.solutions {
-            true => kit.pictures.iter().flat_map(|p| p.for_student(submission)).collect(),
+            true => own.pictures.iter().flat_map(|p| p.for_student(submission, &kit.drawn)).collect(),
             false => Vec::new(),
         },
-        remark: if release.solutions { kit.remark.clone() } else { String::new() },
-        items: score.map(|s| items::groups(lab, question, s, scorecard, submission)).unwrap_or_default(),
+        remark: if release.solutions { own.remark.clone() } else { String::new() },
+        items: score.map(|s| items::groups(&kit.lab, question, s, scorecard, submission)).unwrap_or_default(),
         diagnosis: score
             .and_then(|s| s.items.iter().find_map(|i| i.diagnosis.as_ref()))
-            .map(|diagnosis| items::diagnosis(lab, diagnosis)),
+            .map(|diagnosis| items::diagnosis(&kit.lab, diagnosis)),
     }
 }
 

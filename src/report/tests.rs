@@ -263,22 +263,24 @@ fn a_wrong_system_is_drawn_over_the_right_one_and_the_caption_says_where_it_leav
         TransferFunction::new(decimals("0.06 0"), decimals("-0.0132 -0.0024 0.4166 0.0588")).unwrap();
     let response = Response::new(&unstable, InputKind::Impulse).unwrap();
     let prepared = PreparedResponse::new(point, point.main().impulse.as_ref().unwrap());
-    let figures = prepared.figures(StudentCurves { own: Some(&response), data: None });
+    let own = prepared.own_curves(&response);
+    let figures = prepared.figures(StudentCurves { own: Some(&own), data: None });
     assert_eq!(figures.len(), 2, "a long lightly damped decay is shown near and far");
     let near = &figures[0];
     assert_eq!(near.title, "Hanging straight down: impulse response, first 7.9\u{a0}s");
     let names: Vec<_> = near.series.iter().map(|s| s.name.as_str()).collect();
     assert_eq!(names, ["reference", "your transfer function"]);
     assert!(near.caption.starts_with("The curve of your transfer function leaves the picture at t = 0.2"));
-    let alone = prepared.own_figure(&response).expect("it leaves at once");
+    let alone = own.alone.expect("it leaves at once");
     assert!(alone.check().is_ok() && alone.caption.starts_with("It leaves to one side, ever faster"));
     assert!(alone.x.to < 2.0 && alone.series[0].points.len() < 100, "{} s", alone.x.to);
     assert!((near.y.to - 0.96).abs() < 0.05 && near.y.from > -1.7, "{} to {}", near.y.from, near.y.to);
     assert!(figures.iter().all(|f| f.check().is_ok() && f.summary.contains("Period 1.125")));
 
     let right = Response::new(&point.main().linearization.transfer_function, InputKind::Impulse).unwrap();
+    let right = prepared.own_curves(&right);
     let whole = &prepared.figures(StudentCurves { own: Some(&right), data: None })[1];
-    assert!(prepared.own_figure(&right).is_none(), "it is seen over the reference");
+    assert!(right.alone.is_none(), "it is seen over the reference");
     let [_, tops, bottoms] = whole.series.as_slice() else { panic!("{} curves", whole.series.len()) };
     assert!(tops.points.iter().all(|p| p.1 > 0.0) && bottoms.points.iter().all(|p| p.1 < 0.0));
     assert!(bottoms.name.is_empty(), "one entry in the legend");

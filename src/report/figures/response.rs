@@ -29,9 +29,27 @@ struct View {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct StudentCurves<'a> {
     /// The response of the student's own transfer function.
-    pub own: Option<&'a Response>,
+    pub own: Option<&'a OwnCurves>,
     /// The numbers handed in.
     pub data: Option<&'a submission::Series>,
+}
+
+/// The response of a student's own transfer function, as it is drawn.
+#[derive(Clone, Debug)]
+pub struct OwnCurves {
+    /// One a view: as far as it matters there.
+    views: Vec<Vec<(f64, f64)>>,
+    /// By itself: what follows from it. `None` where it can be seen well enough over the reference, or swings too often to be
+    /// drawn lightly.
+    pub alone: Option<Figure>,
+}
+
+impl OwnCurves {
+    /// In bytes, about.
+    pub fn size(&self) -> usize {
+        let alone = self.alone.iter().flat_map(|figure| &figure.series).map(|series| &series.points);
+        1000 + self.views.iter().chain(alone).map(|points| 16 * points.len()).sum::<usize>()
+    }
 }
 
 /// A response of more than so many periods is shown twice: its beginning, and all of it.
@@ -79,18 +97,25 @@ impl PreparedResponse {
 
     /// One figure a view, the student's curves over the reference.
     pub fn figures(&self, student: StudentCurves<'_>) -> Vec<Figure> {
-        self.views.iter().map(|view| self.figure(view, student)).collect()
+        let own =
+            |place: usize| student.own.and_then(|own| own.views.get(place)).map_or(&[][..], Vec::as_slice);
+        let views = self.views.iter().enumerate();
+        views.map(|(place, view)| self.figure(view, own(place), student.data)).collect()
     }
 
-    /// The response of the student's own transfer function by itself: what follows from it. `None` where it can be seen well
-    /// enough over the reference, or swings too often to be drawn lightly.
-    pub fn own_figure(&self, own: &Response) -> Option<Figure> {
+    /// The curves of a student's own transfer function, whose response is `own`.
+    pub fn own_curves(&self, own: &Response) -> OwnCurves {
+        let views: Vec<_> = self.views.iter().map(|view| sampled(own, view)).collect();
+        let alone = views.first().and_then(|seen| self.alone(own, seen));
+        OwnCurves { views, alone }
+    }
+
+    /// `seen`: how it stands over the reference, in the first view.
+    fn alone(&self, own: &Response, seen: &[(f64, f64)]) -> Option<Figure> {
         const EARLY: f64 = 0.25;
         const MOST_POINTS: usize = 400;
         let view = self.views.first()?;
-        let reach = view.reference.iter().map(|p| p.1.abs()).fold(0.0, f64::max);
-        let seen = sampled(own, view, reach);
-        let left = leaves_at(&seen, frame(&view.reference, &[&seen]))?;
+        let left = leaves_at(seen, frame(&view.reference, &[seen]))?;
         if left > EARLY * view.end_s {
             return None;
         }
@@ -111,11 +136,9 @@ impl PreparedResponse {
         Some(figure)
     }
 
-    fn figure(&self, view: &View, student: StudentCurves<'_>) -> Figure {
-        let reach = view.reference.iter().map(|p| p.1.abs()).fold(0.0, f64::max);
-        let own = student.own.map(|r| sampled(r, view, reach)).unwrap_or_default();
-        let data = student.data.map(|d| data_series(d, view.end_s)).unwrap_or_default();
-        let mut others: Vec<&[(f64, f64)]> = vec![&own];
+    fn figure(&self, view: &View, own: &[(f64, f64)], data: Option<&submission::Series>) -> Figure {
+        let data = data.map(|d| data_series(d, view.end_s)).unwrap_or_default();
+        let mut others: Vec<&[(f64, f64)]> = vec![own];
         others.extend(data.iter().map(|s| s.points.as_slice()));
         let range = frame(&view.reference, &others);
 
@@ -127,9 +150,10 @@ impl PreparedResponse {
         let points = view.reference.clone();
         figure.series.push(Series { name: "reference".into(), look: Look::Reference, points });
         if !own.is_empty() {
-            figure.caption += &leaving_words("The curve of your transfer function", &own, range);
+            figure.caption += &leaving_words("The curve of your transfer function", own, range);
             let name = "your transfer function".to_owned();
-            figure.series.extend(over_dense(view, Series { name, look: Look::Student, points: own }));
+            let points = own.to_vec();
+            figure.series.extend(over_dense(view, Series { name, look: Look::Student, points }));
         }
         for series in data {
             figure.caption += &leaving_words("The curve of your data", &series.points, range);
@@ -161,8 +185,9 @@ fn over_dense(view: &View, series: Series) -> Vec<Series> {
 }
 
 /// The curve of a student's system as far as it matters: to the end of the view, or well past where it leaves the picture.
-fn sampled(response: &Response, view: &View, reach: f64) -> Vec<(f64, f64)> {
+fn sampled(response: &Response, view: &View) -> Vec<(f64, f64)> {
     const STEPS: usize = 300;
+    let reach = view.reference.iter().map(|p| p.1.abs()).fold(0.0, f64::max);
     let end_s = view.end_s;
     let far = 8.0 * if reach > 0.0 { reach } else { 1.0 };
     let instants = (1..=STEPS).map(|i| end_s * i as f64 / STEPS as f64);
