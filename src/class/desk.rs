@@ -7,8 +7,8 @@ use super::numbers::{Bench, Benches, Numbers, WithoutNumbers, numbers};
 use super::record::Record;
 use super::run::{ClassError, ClassJob};
 use crate::grading::{
-    Catalogue, HandMarks, HandMarksFile, MemberCard, Scorecard, grade, grade_beside_members,
-    grade_without_numbers, leave_to_a_person,
+    Catalogue, HandMarks, HandMarksFile, Known, MemberCard, Scorecard, grade, grade_beside_members,
+    grade_knowing, grade_without_numbers, leave_to_a_person,
 };
 use crate::lab::Release;
 use crate::source::{Finding, Severity, sanitize};
@@ -70,6 +70,8 @@ pub struct Desk<'a> {
     pub job: &'a ClassJob<'a>,
     pub benches: Benches<'a>,
     pub without: WithoutNumbers,
+    /// Where everyone has the lab's own numbers, or it is not known whose they are: in one class it is one or the other.
+    pub known: Known,
     /// What earlier runs marked.
     pub kept: Kept,
     /// What every mark of this run rests on; `None` when nothing is to be used again.
@@ -340,7 +342,14 @@ impl Desk<'_> {
         match (numbers, bench) {
             (Numbers::Own { members, .. }, Some(Ok(own))) => {
                 if members.is_empty() {
-                    return Ok(grade(&own.lab, &own.reference, &own.catalogue, submission, marks));
+                    return Ok(grade_knowing(
+                        &own.known,
+                        &own.lab,
+                        &own.reference,
+                        &own.catalogue,
+                        submission,
+                        marks,
+                    ));
                 }
                 let cards = members.iter().filter_map(|(id, variant)| {
                     let theirs = self.benches.get(variant);
@@ -350,15 +359,15 @@ impl Desk<'_> {
                     Some(MemberCard { id: id.clone(), scorecard })
                 });
                 let cards: Vec<MemberCard> = cards.collect();
-                let Bench { lab, reference, catalogue, .. } = own;
-                Ok(grade_beside_members(lab, reference, catalogue, submission, marks, &cards))
+                let Bench { lab, reference, catalogue, known, .. } = own;
+                Ok(grade_beside_members(known, lab, reference, catalogue, submission, marks, &cards))
             }
             (Numbers::Own { .. }, Some(Err(why))) => Err(does_not_work(why)),
             (Numbers::Unknown, _) => {
                 let reference = self.without.reference(job.reference);
-                Ok(grade_without_numbers(job.lab, reference, job.catalogue, submission, marks))
+                Ok(grade_without_numbers(&self.known, job.lab, reference, job.catalogue, submission, marks))
             }
-            _ => Ok(grade(job.lab, job.reference, job.catalogue, submission, marks)),
+            _ => Ok(grade_knowing(&self.known, job.lab, job.reference, job.catalogue, submission, marks)),
         }
     }
 }

@@ -1,4 +1,4 @@
-use crate::grading::Catalogue;
+use crate::grading::{Catalogue, Known};
 use crate::lab::{LabDefinition, StudentEdition, SystemRef, Variant, VariantRule};
 use crate::memo::Memo;
 use crate::reference::Reference;
@@ -75,16 +75,16 @@ pub struct Bench {
     pub reference: Reference,
     pub catalogue: Catalogue,
     pub kit: ReportKit,
+    pub known: Known,
 }
 
 impl Bench {
-    /// `of` are those of the lab's own values. Errors: in words, what does not work with these numbers.
-    fn new(lab: Arc<LabDefinition>, of: &Benches<'_>) -> Result<Self, String> {
-        let Benches { reference, catalogue, kit, .. } = of;
-        let reference = Reference::for_marking(&lab, reference).map_err(|error| error.to_string())?;
-        let catalogue = catalogue.with_numbers(&lab, &reference);
+    /// `own` is the whole reference of the lab's own values. Errors: in words, what does not work with these numbers.
+    fn new(lab: Arc<LabDefinition>, own: &Reference, kit: &ReportKit) -> Result<Self, String> {
+        let reference = Reference::for_marking(&lab, own).map_err(|error| error.to_string())?;
+        let catalogue = Catalogue::new(&lab, &reference);
         let kit = kit.with_numbers(&lab, &reference).map_err(|error| error.to_string())?;
-        Ok(Self { lab, reference, catalogue, kit })
+        Ok(Self { lab, reference, catalogue, kit, known: Known::new() })
     }
 }
 
@@ -92,7 +92,6 @@ impl Bench {
 pub struct Benches<'a> {
     lab: &'a LabDefinition,
     reference: &'a Reference,
-    catalogue: &'a Catalogue,
     kit: &'a ReportKit,
     labs: Memo<Variant, Result<Arc<LabDefinition>, String>>,
     benches: Memo<Variant, Result<Bench, String>>,
@@ -104,13 +103,8 @@ const MOST_LABS: usize = 96;
 
 impl<'a> Benches<'a> {
     /// All of these are those of the lab's own values, the reference whole.
-    pub fn new(
-        lab: &'a LabDefinition,
-        reference: &'a Reference,
-        catalogue: &'a Catalogue,
-        kit: &'a ReportKit,
-    ) -> Self {
-        Self { lab, reference, catalogue, kit, labs: Memo::of(MOST_LABS), benches: Memo::of(MOST_BENCHES) }
+    pub fn new(lab: &'a LabDefinition, reference: &'a Reference, kit: &'a ReportKit) -> Self {
+        Self { lab, reference, kit, labs: Memo::of(MOST_LABS), benches: Memo::of(MOST_BENCHES) }
     }
 
     /// Errors: in words, what does not work with these values.
@@ -122,7 +116,7 @@ impl<'a> Benches<'a> {
 
     pub fn get(&self, variant: &Variant) -> Arc<Result<Bench, String>> {
         self.benches.get(variant.clone(), |variant| match &*self.lab(variant) {
-            Ok(lab) => Bench::new(Arc::clone(lab), self),
+            Ok(lab) => Bench::new(Arc::clone(lab), self.reference, self.kit),
             Err(why) => Err(why.clone()),
         })
     }

@@ -16,7 +16,7 @@ use super::statistics::Statistics;
 use super::students_seen::StudentsSeen;
 use super::without_marks::{Absentees, superseded_records};
 use super::workplace::Workplace;
-use crate::grading::{Catalogue, HandMarksFile};
+use crate::grading::{Catalogue, HandMarksFile, Known};
 use crate::lab::{LabDefinition, Release};
 use crate::reference::Reference;
 use crate::report::{ReportError, ReportKit};
@@ -105,7 +105,8 @@ pub fn grade_class(
     let mut others = pool.install(|| Others::new(job));
     let desk = Desk {
         job,
-        benches: Benches::new(job.lab, job.reference, job.catalogue, job.kit),
+        benches: Benches::new(job.lab, job.reference, job.kit),
+        known: Known::new(),
         without: WithoutNumbers::new(job.lab, job.reference, job.kit)?,
         kept: if job.from_scratch { Kept::nothing() } else { Kept::open(job.out, &workplace) },
         run: rests_on(job, &others),

@@ -1,15 +1,13 @@
 use super::accepted::{Accepted, accepted, coefficient_tolerance};
 use super::likeness::{Form, Row};
-use super::own::OwnModel;
 use super::pairs::Pairs;
 use crate::algebra::{Polynomial, Rational, to_f64};
 use crate::lab::{LabDefinition, SystemRef};
 use crate::lti::TransferFunction;
-use crate::memo::Memo;
 use crate::model::{Derivation, Estimates, Mistake, RealFunction};
 use crate::reference::Reference;
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 /// The likely mistakes in deriving each transfer function that a lab asks for, and what they lead to: made once a lab.
 ///
@@ -18,14 +16,7 @@ use std::sync::{Arc, OnceLock};
 #[derive(Clone, Debug, Default)]
 pub struct Catalogue {
     pub(super) systems: Vec<System>,
-    own: Arc<OnceLock<OwnModels>>,
 }
-
-/// Functions that students wrote, and the degree up to which they are followed.
-type OwnModels = Memo<(TransferFunction, usize), Vec<OwnModel>>;
-
-/// So many of them are kept; each takes some 10 kB.
-const MOST_OWN_MODELS: usize = 512;
 
 /// One transfer function that is asked for.
 #[derive(Clone, Debug)]
@@ -63,19 +54,7 @@ impl Catalogue {
                 systems.extend(System::new(lab, reference, of));
             }
         }
-        Self { systems, own: Arc::default() }
-    }
-
-    /// The catalogue of a lab with other numbers. What follows from students' functions depends on no number of the lab, and is
-    /// shared.
-    pub fn with_numbers(&self, lab: &LabDefinition, reference: &Reference) -> Self {
-        Self { own: Arc::clone(&self.own), ..Self::new(lab, reference) }
-    }
-
-    /// The ways to take a function that a student wrote: [`OwnModel::ways`].
-    pub(super) fn own_models(&self, typed: &TransferFunction, most: usize) -> Arc<Vec<OwnModel>> {
-        let own = self.own.get_or_init(|| Memo::of(MOST_OWN_MODELS));
-        own.get((typed.clone(), most), |(typed, most)| OwnModel::ways(typed, *most))
+        Self { systems }
     }
 
     /// How many different wrong functions single mistakes lead to, by estimate.

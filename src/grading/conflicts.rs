@@ -7,12 +7,7 @@ use super::{Conflict, Verdict};
 use crate::english::capitalized;
 use crate::lab::{Check, Criterion, Described, LabDefinition, Question};
 use crate::prose::Claim;
-use crate::submission::{AnswerValue, claims_about, contradicted_claims};
-
-/// What `prose` claims about the response it describes, in text order.
-pub(super) fn claims_of(prose: &str, described: &Described, lab: &LabDefinition) -> Vec<Claim> {
-    claims_about(prose, &described.of.to_string(), &lab.sheet)
-}
+use crate::submission::{AnswerValue, contradicted_claims};
 
 /// Notes at each prose criterion which of the claims cannot be true by other answers of the student's, or by the reference.
 ///
@@ -53,12 +48,12 @@ fn conflicts(
     let Field::Value(_, AnswerValue::Prose(prose)) = grader.field(&criterion.field) else {
         return Vec::new();
     };
-    let own = contradicted_claims(grader.submission, &lab.sheet, &criterion.field)
+    let own = contradicted_claims(grader.submission, &lab.sheet, &criterion.field, grader.known)
         .into_iter()
         .map(|one| Conflict { span: one.claim.span, claim: one.claim.words(), against: one.says, own: true });
     let mut all: Vec<Conflict> = own.collect();
     if let Some(described) = described {
-        let found = claims_of(prose, described, lab);
+        let found = grader.claims_of(prose, described);
         all.extend(found.iter().filter_map(|claim| against_reference(claim, described, grader)));
     }
     // The student's own answer first.

@@ -1,6 +1,5 @@
 use super::accepted::{Accepted, coefficient_tolerance};
 use super::closeness::percent;
-use super::conflicts::claims_of;
 use super::grade::{Field, Grader};
 use super::guard::{self, Guard};
 use super::mark::{Mark, share};
@@ -149,7 +148,7 @@ impl Follower<'_> {
         let behaviour = (&response.features, own.stability);
         let mark = own_claims::judge(
             self.criterion.points,
-            &claims_of(prose, described, self.lab),
+            &self.grader.claims_of(prose, described),
             &known,
             behaviour,
         )?;
@@ -163,7 +162,7 @@ impl Follower<'_> {
         let (guard, ways) = function.model.get_or_init(|| {
             let truth = Truth::Reference(self.grader.reference).poles(function.of);
             let asked = truth.iter().map(|one| one.denominator.degree()).max().unwrap_or(0);
-            let ways = self.grader.catalogue.own_models(function.typed, asked + guard::HIGHER);
+            let ways = self.grader.known.own_models(function.typed, asked + guard::HIGHER);
             let tolerance = coefficient_tolerance(self.lab, function.of);
             let guard = ways.first().map_or(Guard::Order, |short| {
                 guard::of_function(&short.function, self.grader.reference, function.of, &tolerance)

@@ -1,6 +1,7 @@
 use super::accepted::{Accepted, accepted, accepted_where, operating_point};
 use super::conflicts::note_conflicts;
 use super::follow_through::follow;
+use super::known::Known;
 use super::mark::{Mark, beginning};
 use super::plot::{Demands, Target};
 use super::same_mistake::spare;
@@ -10,13 +11,16 @@ use super::{
     concepts, cover, in_doubt, letters, nonlinearity, plot, poles, shape, stability, tangent,
     transfer_function, value,
 };
-use crate::lab::{Check, Criterion, Curve, LabDefinition, Question, SystemRef};
+use crate::lab::{Check, Criterion, Curve, Described, LabDefinition, Question, SystemRef};
 use crate::model::LetterDerivation;
+use crate::prose::Claim;
 use crate::reference::{Reference, ResponseReference};
 use crate::submission::{
-    Answer, AnswerSheet, AnswerValue, AnsweredIn, Figure, Series, Submission, Unreadable, hash_of_fields,
+    Answer, AnswerSheet, AnswerValue, AnsweredIn, Figure, Knowledge, Series, Submission, Unreadable,
+    hash_of_fields,
 };
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Every mark of one submission, with its evidence, and with `catalogue` what may explain a wrong transfer function.
 ///
@@ -29,7 +33,19 @@ pub fn grade(
     submission: &Submission,
     hand: Option<&HandMarks>,
 ) -> Scorecard {
-    let grader = Grader { reference, catalogue, submission, sheet: &lab.sheet };
+    grade_knowing(&Known::NOTHING, lab, reference, catalogue, submission, hand)
+}
+
+/// The same, with what is `known` of earlier submissions marked by the same lab, reference and catalogue.
+pub fn grade_knowing(
+    known: &Known,
+    lab: &LabDefinition,
+    reference: &Reference,
+    catalogue: &Catalogue,
+    submission: &Submission,
+    hand: Option<&HandMarks>,
+) -> Scorecard {
+    let grader = Grader { known, reference, catalogue, submission, sheet: &lab.sheet };
     scorecard(lab, submission, hand, marks(lab, &grader, hand))
 }
 
@@ -164,6 +180,7 @@ fn position(criterion: &Criterion, submission: &Submission) -> Option<crate::sou
 
 /// Judges the answers of one submission.
 pub(super) struct Grader<'a> {
+    pub known: &'a Known,
     pub reference: &'a Reference,
     pub(super) catalogue: &'a Catalogue,
     pub submission: &'a Submission,
@@ -196,7 +213,10 @@ impl<'a> Grader<'a> {
                 continue;
             }
             match criterion.check.transfer_function() {
-                None => marks[index] = Some(self.criterion(criterion, Truth::Reference(self.reference))),
+                None => {
+                    let judge = || vec![self.criterion(criterion, Truth::Reference(self.reference))];
+                    marks[index] = self.remembered(criterion, judge).pop();
+                }
                 Some(of) => {
                     // Criteria on one transfer function are judged together: they share one reading of it.
                     let same: Vec<usize> = (index..question.criteria.len())
@@ -207,7 +227,9 @@ impl<'a> Grader<'a> {
                         .collect();
                     let criteria: Vec<&Criterion> =
                         same.iter().map(|&place| &question.criteria[place]).collect();
-                    for (place, mark) in same.iter().zip(self.transfer_function(&criteria, of)) {
+                    for (place, mark) in
+                        same.iter().zip(self.remembered(criterion, || self.transfer_function(&criteria, of)))
+                    {
                         marks[*place] = Some(mark);
                     }
                 }
@@ -216,6 +238,22 @@ impl<'a> Grader<'a> {
         let missing =
             || Mark::unmarked(String::new(), String::new(), "polemark did not judge this; a person will.");
         marks.into_iter().map(|mark| mark.unwrap_or_else(missing)).collect()
+    }
+
+    /// What `judge` says by the reference of the answer to `criterion` and those judged with it, now or earlier.
+    fn remembered(&self, criterion: &Criterion, judge: impl Fn() -> Vec<Mark>) -> Vec<Mark> {
+        match (&criterion.check, self.field(&criterion.field)) {
+            // Of files only the name stands in the answer.
+            (Check::Plot { .. }, _) => judge(),
+            (_, Field::Value(_, AnswerValue::Figure(_) | AnswerValue::Data(_))) => judge(),
+            (_, Field::Value(answer, value)) => self.known.marks(&criterion.id, &answer.text, value, judge),
+            (_, Field::Blank | Field::Unreadable(..)) => judge(),
+        }
+    }
+
+    /// What `prose` claims about the response it describes, in text order.
+    pub(super) fn claims_of(&self, prose: &str, described: &Described) -> Arc<Vec<Claim>> {
+        self.known.claims(prose, &described.of.to_string(), self.sheet)
     }
 
     fn transfer_function(&self, criteria: &[&Criterion], of: &SystemRef) -> Vec<Mark> {

@@ -19,6 +19,7 @@ mod grade;
 mod guard;
 mod hand_marks;
 mod in_doubt;
+mod known;
 mod ledger;
 mod letters;
 mod likeness;
@@ -45,11 +46,12 @@ mod whose_numbers;
 pub use catalogue::Catalogue;
 pub use diagnosis::{Diagnosis, EquationPlace, Explanation};
 pub use follow_through::FollowThrough;
-pub use grade::{grade, leave_to_a_person};
+pub use grade::{grade, grade_knowing, leave_to_a_person};
 pub use guard::Guard;
 pub use hand_marks::{
     Adjustment, AlikeMarks, Given, HandMarks, HandMarksFile, LateCost, LateRule, NO_ANSWER, Override,
 };
+pub use known::Known;
 pub use ledger::{Cause, Ledger, Loss, Spared};
 pub use scorecard::*;
 pub use whose_numbers::{MemberCard, grade_beside_members, grade_without_numbers};

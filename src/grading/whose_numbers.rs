@@ -1,6 +1,7 @@
 //! Marks where it is in doubt whose numbers an answer is to be judged by: left to a person, never a zero.
 
 use super::grade::{Field, Grader, marks, scorecard};
+use super::known::Known;
 use super::mark::{Mark, beginning};
 use super::{Catalogue, Evidence, HandMarks, Scorecard, Verdict};
 use crate::english::listed;
@@ -20,13 +21,14 @@ pub struct MemberCard {
 /// Marks a submission of a lab whose numbers differ from student to student, when it is not known whose it is: what those
 /// numbers decide is left to a person, everything else is marked as usual.
 pub fn grade_without_numbers(
+    known: &Known,
     lab: &LabDefinition,
     reference: &Reference,
     catalogue: &Catalogue,
     submission: &Submission,
     hand: Option<&HandMarks>,
 ) -> Scorecard {
-    let grader = Grader { reference, catalogue, submission, sheet: &lab.sheet };
+    let grader = Grader { known, reference, catalogue, submission, sheet: &lab.sheet };
     let mut alike = lab.clone();
     for question in &mut alike.questions {
         question.criteria.retain(|criterion| !lab.judges_varied(criterion));
@@ -67,6 +69,7 @@ fn unknown(grader: &Grader<'_>, criterion: &Criterion) -> Mark {
 /// Marks a group's submission by the numbers of its first member, which `lab` and `reference` have; an answer that is not
 /// right by them, but by the numbers of another member, is left to a person.
 pub fn grade_beside_members(
+    known: &Known,
     lab: &LabDefinition,
     reference: &Reference,
     catalogue: &Catalogue,
@@ -74,7 +77,7 @@ pub fn grade_beside_members(
     hand: Option<&HandMarks>,
     members: &[MemberCard],
 ) -> Scorecard {
-    let grader = Grader { reference, catalogue, submission, sheet: &lab.sheet };
+    let grader = Grader { known, reference, catalogue, submission, sheet: &lab.sheet };
     let mut all = marks(lab, &grader, hand);
     for (question, marks) in lab.questions.iter().zip(&mut all) {
         for (criterion, mark) in question.criteria.iter().zip(marks) {

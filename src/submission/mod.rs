@@ -46,7 +46,7 @@ pub use answer::{
 };
 pub use answer_hash::hash_of_fields;
 pub use attachments::{AttachmentError, Attachments, Folder, MAX_ATTACHMENT_BYTES, NoFiles, plain_path};
-pub use own_claims::{ContradictedClaim, claims_about, contradicted_claims};
+pub use own_claims::{Behaviour, ContradictedClaim, Knowledge, behaviour, claims_about, contradicted_claims};
 pub use read::{MAX_PROSE_BYTES, read};
 pub use self_check::self_check;
 pub use sheet::{AnswerSheet, AnsweredIn, Field, FieldKind, FieldLetters, LetterName, LineNames};

@@ -3,6 +3,7 @@ use super::{Answer, AnswerSheet, AnswerValue, Field, FieldKind, FinalValue, Subm
 use crate::algebra::Rational;
 use crate::lti::{Features, InputKind, Limit, Response, Stability, TransferFunction, stability};
 use crate::prose::{Claim, ClaimKind, Quantity, claims};
+use std::sync::Arc;
 
 /// A claim of prose that another answer of the same file contradicts.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,26 +52,62 @@ fn elsewhere(about: &str, sheet: &AnswerSheet) -> Vec<String> {
     names
 }
 
+/// What a transfer function says of the system: its stability, and what is seen of its response where it has one.
+#[derive(Clone, Debug)]
+pub struct Behaviour {
+    pub stability: Stability,
+    pub features: Option<Features>,
+}
+
+/// Common factors are cancelled. No response is asked for without `response`.
+pub fn behaviour(typed: &TransferFunction, response: Option<InputKind>) -> Behaviour {
+    let own = typed.cancelled().0;
+    let response = response.and_then(|kind| Response::new(&own, kind).ok());
+    Behaviour { stability: stability(&own.den), features: response.map(|response| Features::of(&response)) }
+}
+
+/// Where claims and behaviours come from: worked out, or remembered.
+pub trait Knowledge {
+    /// [`behaviour`]
+    fn behaviour(&self, typed: &TransferFunction, response: Option<InputKind>) -> Arc<Behaviour>;
+    /// [`claims_about`]
+    fn claims(&self, prose: &str, about: &str, sheet: &AnswerSheet) -> Arc<Vec<Claim>>;
+}
+
+/// Everything is worked out.
+pub struct WorkedOut;
+
+impl Knowledge for WorkedOut {
+    fn behaviour(&self, typed: &TransferFunction, response: Option<InputKind>) -> Arc<Behaviour> {
+        Arc::new(behaviour(typed, response))
+    }
+
+    fn claims(&self, prose: &str, about: &str, sheet: &AnswerSheet) -> Arc<Vec<Claim>> {
+        Arc::new(claims_about(prose, about, sheet))
+    }
+}
+
 /// What the prose in `path` claims and another answer about the same response contradicts, in text order; each claim once.
 pub fn contradicted_claims<'a>(
     submission: &'a Submission,
     sheet: &'a AnswerSheet,
     path: &str,
+    knowledge: &dyn Knowledge,
 ) -> Vec<ContradictedClaim<'a>> {
     let Some(field) = sheet.fields.iter().find(|field| field.path == path) else { return Vec::new() };
     let Some((about, response)) = described(field, sheet) else { return Vec::new() };
     let Some(AnswerValue::Prose(prose)) = value(submission, path).map(|(_, value)| value) else {
         return Vec::new();
     };
-    let found = claims_about(prose, about, sheet);
+    let found = knowledge.claims(prose, about, sheet);
     if found.is_empty() {
         return Vec::new();
     }
-    let witnesses = witnesses(submission, sheet, about, response);
+    let witnesses = witnesses(submission, sheet, about, response, knowledge);
     let against = |claim: &Claim| witnesses.iter().find_map(|witness| witness.contradicts(claim));
-    let contradicted = found.into_iter().filter_map(|claim| {
-        let (answer, says) = against(&claim)?;
-        Some(ContradictedClaim { claim, answer, says })
+    let contradicted = found.iter().filter_map(|claim| {
+        let (answer, says) = against(claim)?;
+        Some(ContradictedClaim { claim: claim.clone(), answer, says })
     });
     contradicted.collect()
 }
@@ -88,9 +125,8 @@ struct Witness<'a> {
 
 enum Known<'a> {
     Value(&'a AnswerValue, Option<Quantity>),
-    /// Of a transfer function, common factors cancelled.
-    Response(Box<Features>, Stability),
-    Stability(Stability),
+    /// Of a transfer function.
+    Function(Arc<Behaviour>),
 }
 
 /// The answers about `about`, those that say it in a word before those it follows from.
@@ -99,6 +135,7 @@ fn witnesses<'a>(
     sheet: &'a AnswerSheet,
     about: &str,
     response: Option<InputKind>,
+    knowledge: &dyn Knowledge,
 ) -> Vec<Witness<'a>> {
     let mut all: Vec<(u8, Witness<'a>)> = Vec::new();
     for field in sheet.fields.iter().filter(|field| field.about.as_deref() == Some(about)) {
@@ -114,7 +151,7 @@ fn witnesses<'a>(
             },
             AnswerValue::Poles(poles) if !poles.is_empty() => (3, Known::Value(value, None)),
             AnswerValue::TransferFunction { transfer_function, .. } if !sheet.leans_on_untold(answer) => {
-                (4, by_transfer_function(transfer_function, response))
+                (4, Known::Function(knowledge.behaviour(transfer_function, response)))
             }
             _ => continue,
         };
@@ -134,29 +171,25 @@ fn quantity(path: &str) -> Option<Quantity> {
     }
 }
 
-fn by_transfer_function<'a>(typed: &TransferFunction, response: Option<InputKind>) -> Known<'a> {
-    let own = typed.cancelled().0;
-    let stability = stability(&own.den);
-    match response.and_then(|kind| Response::new(&own, kind).ok()) {
-        Some(response) => Known::Response(Box::new(Features::of(&response)), stability),
-        None => Known::Stability(stability),
-    }
-}
-
 impl<'a> Witness<'a> {
     /// The answer and what it says, when the claim cannot be true by it.
     fn contradicts(&self, claim: &Claim) -> Option<(&'a Answer, String)> {
         let (holds, says) = match &self.known {
-            Known::Stability(own) => (claim.holds_for_stability(*own), function_is(*own)),
-            Known::Response(features, own) => {
-                let fact = claim.fact(features, *own);
+            Known::Function(own) => {
                 let of_system = matches!(
                     claim.kind,
                     ClaimKind::Stable | ClaimKind::MarginallyStable | ClaimKind::Unstable
                 );
-                let says =
-                    if of_system { function_is(*own) } else { format!("By your transfer function, {fact}.") };
-                (claim.holds(features, *own), says)
+                match &own.features {
+                    None => (claim.holds_for_stability(own.stability), function_is(own.stability)),
+                    Some(features) if of_system => {
+                        (claim.holds(features, own.stability), function_is(own.stability))
+                    }
+                    Some(features) => {
+                        let fact = claim.fact(features, own.stability);
+                        (claim.holds(features, own.stability), format!("By your transfer function, {fact}."))
+                    }
+                }
             }
             Known::Value(AnswerValue::Stability(own), _) => {
                 (claim.holds_for_stability(*own), format!("Your answer on stability is “{}”.", own.words()))
@@ -276,7 +309,7 @@ mod tests {
             let found: Vec<String> = sheet
                 .fields
                 .iter()
-                .flat_map(|field| contradicted_claims(&submission, &sheet, &field.path))
+                .flat_map(|field| contradicted_claims(&submission, &sheet, &field.path, &WorkedOut))
                 .map(|one| format!("{}: {}", one.claim.words(), one.says))
                 .collect();
             assert_eq!(found, *want, "{answers}");

@@ -1,4 +1,4 @@
-use super::own_claims::contradicted_claims;
+use super::own_claims::{WorkedOut, contradicted_claims};
 use super::problem::quote;
 use super::shape_name;
 use super::unworkable::unworkable;
@@ -49,7 +49,7 @@ fn prose_against_answers(field: &Field, submission: &Submission, sheet: &AnswerS
     let Some(answer) = submission.answers.get(&field.path) else { return Vec::new() };
     let Ok(AnswerValue::Prose(prose)) = &answer.value else { return Vec::new() };
     let line = |answer: &Answer| submission.source.position(answer.span.start).line;
-    let mut found = contradicted_claims(submission, sheet, &field.path);
+    let mut found = contradicted_claims(submission, sheet, &field.path, &WorkedOut);
     found.truncate(MOST_OF_PROSE);
     found
         .iter()

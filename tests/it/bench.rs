@@ -1,6 +1,6 @@
 //! A lab with all that marking needs, and the class that answers it.
 
-use polemark::grading::{self, Catalogue, ItemScore, MemberCard, Scorecard};
+use polemark::grading::{self, Catalogue, ItemScore, Known, MemberCard, Scorecard};
 use polemark::lab::{self, Criterion, LabDefinition};
 use polemark::reference::Reference;
 use polemark::source::SourceText;
@@ -95,7 +95,14 @@ impl Bench {
         let Some((first, others)) = students.split_first() else {
             let (lab, reference, catalogue) = (&self.lab, &self.reference, &self.catalogue);
             let submission = self.read(answers);
-            return items(grading::grade_without_numbers(lab, reference, catalogue, &submission, None));
+            return items(grading::grade_without_numbers(
+                &Known::NOTHING,
+                lab,
+                reference,
+                catalogue,
+                &submission,
+                None,
+            ));
         };
         let own = |id: &String| {
             let variant = rule.of(id).expect("an id");
@@ -108,7 +115,15 @@ impl Bench {
         let card = |id: &String| MemberCard { id: id.clone(), scorecard: own(id).grade(&submission) };
         let members: Vec<MemberCard> = others.iter().map(card).collect();
         let Bench { lab, reference, catalogue } = &bench;
-        items(grading::grade_beside_members(lab, reference, catalogue, &submission, None, &members))
+        items(grading::grade_beside_members(
+            &Known::NOTHING,
+            lab,
+            reference,
+            catalogue,
+            &submission,
+            None,
+            &members,
+        ))
     }
 
     pub fn all_criteria(&self) -> impl Iterator<Item = &Criterion> {
