@@ -14,6 +14,7 @@ use crate::lab::Release;
 use crate::source::{Finding, Severity, sanitize};
 use crate::submission::{AnswerSheet, AttachmentError, Attachments, Student, Submission};
 use rayon::prelude::*;
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
@@ -291,25 +292,29 @@ impl Desk<'_> {
             (_, Some(Ok(bench))) => &bench.kit,
             _ => self.without.kit(job.kit),
         };
-        let mut page = |release| match catch_unwind(AssertUnwindSafe(|| {
-            kit.released_page(&submission, &scorecard, release)
-        })) {
-            Ok(page) => page,
-            Err(_) => {
+        let mut page = |release, bytes: &mut Vec<u8>| {
+            bytes.clear();
+            let written = AssertUnwindSafe(|| {
+                kit.write_released_page(bytes, &submission, &scorecard, release);
+            });
+            if catch_unwind(written).is_err() {
                 failed = true;
-                "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>polemark</title>\
-                 <p>polemark could not write this report. The marks are in gradebook.csv and results.jsonl.</p></html>"
-                    .to_owned()
+                bytes.clear();
+                bytes.extend_from_slice(NO_REPORT.as_bytes());
             }
         };
-        let write = |report: &str, page: &str| -> Result<String, ClassError> {
-            NewFile::create(job.out.join(report), &self.growing)?.write_all(page.as_bytes())?;
-            Ok(fingerprint(page))
+        let mut write = |report: &str, release| -> Result<String, ClassError> {
+            // Each thread writes all its pages into one piece of memory.
+            PAGE.with_borrow_mut(|bytes| {
+                page(release, bytes);
+                NewFile::create(job.out.join(report), &self.growing)?.write_all(bytes)?;
+                Ok(fingerprint(bytes))
+            })
         };
-        let mut pages = Pages { report: write(&report, &page(job.release))?, instructor: None };
+        let mut pages = Pages { report: write(&report, job.release)?, instructor: None };
         if job.release != Release::ALL {
             let full = report.replacen("reports/", "instructor/", 1);
-            let written = write(&full, &page(Release::ALL))?;
+            let written = write(&full, Release::ALL)?;
             pages.instructor = Some((full, written));
         }
         let marked = Marked {
@@ -371,6 +376,13 @@ impl Desk<'_> {
         }
     }
 }
+
+thread_local! {
+    static PAGE: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
+}
+
+const NO_REPORT: &str = "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>polemark</title>\
+    <p>polemark could not write this report. The marks are in gradebook.csv and results.jsonl.</p></html>";
 
 fn does_not_work(why: &str) -> Finding {
     Finding {

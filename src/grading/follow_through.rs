@@ -163,9 +163,11 @@ impl Follower<'_> {
             let truth = Truth::Reference(self.grader.reference).poles(function.of);
             let asked = truth.iter().map(|one| one.denominator.degree()).max().unwrap_or(0);
             let ways = self.grader.known.own_models(function.typed, asked + guard::HIGHER);
-            let tolerance = coefficient_tolerance(self.lab, function.of);
-            let guard = ways.first().map_or(Guard::Order, |short| {
-                guard::of_function(&short.function, self.grader.reference, function.of, &tolerance)
+            let guard = self.grader.known.guard(function.of, function.typed, || {
+                let tolerance = coefficient_tolerance(self.lab, function.of);
+                ways.first().map_or(Guard::Order, |short| {
+                    guard::of_function(&short.function, self.grader.reference, function.of, &tolerance)
+                })
             });
             // What a slip leads to as well is no proof of another operating point.
             let guard =

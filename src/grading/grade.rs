@@ -304,7 +304,7 @@ impl<'a> Grader<'a> {
         else {
             return None;
         };
-        let functions = self.catalogue.led_to_by(of, mistakes);
+        let functions = self.known.led_to_by(self.catalogue, of, mistakes);
         let expected: Vec<_> = functions.iter().map(|what| Accepted { differs: &[], what }).collect();
         (!expected.is_empty()).then(|| transfer_function::judge(criteria, &expected, typed))
     }

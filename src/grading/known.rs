@@ -1,5 +1,7 @@
 use super::mark::Mark;
 use super::own::OwnModel;
+use super::{Catalogue, Guard};
+use crate::lab::SystemRef;
 use crate::lti::{InputKind, TransferFunction};
 use crate::memo::Memo;
 use crate::prose::Claim;
@@ -17,6 +19,9 @@ struct Kept {
     marks: Memo<Judged, (AnswerValue, Vec<Mark>)>,
     /// Functions that students wrote, and the degree up to which they are followed.
     own: Memo<(TransferFunction, usize), Vec<OwnModel>>,
+    guards: Memo<(SystemRef, TransferFunction), Guard>,
+    /// What mistakes lead to.
+    led_to: Memo<(SystemRef, Vec<String>), Vec<TransferFunction>>,
     behaviours: Memo<(TransferFunction, Option<InputKind>), Behaviour>,
     /// By text, and the system it is about.
     claims: Memo<(String, String), Vec<Claim>>,
@@ -37,6 +42,8 @@ impl Known {
         Self(Some(Kept {
             marks: Memo::of(MOST),
             own: Memo::of(MOST_OWN_MODELS),
+            guards: Memo::of(MOST_OWN_MODELS),
+            led_to: Memo::of(MOST_OWN_MODELS),
             behaviours: Memo::of(MOST_OWN_MODELS),
             claims: Memo::of(MOST),
         }))
@@ -61,6 +68,30 @@ impl Known {
         match &self.0 {
             None => Arc::new(OwnModel::ways(typed, most)),
             Some(kept) => kept.own.get((typed.clone(), most), |(typed, most)| OwnModel::ways(typed, *most)),
+        }
+    }
+
+    /// Whether a function that a student wrote for `of` may be followed, as `judge` says.
+    pub(super) fn guard(&self, of: &SystemRef, typed: &TransferFunction, judge: impl Fn() -> Guard) -> Guard {
+        match &self.0 {
+            None => judge(),
+            Some(kept) => *kept.guards.get((of.clone(), typed.clone()), |_| judge()),
+        }
+    }
+
+    /// [`Catalogue::led_to_by`]
+    pub(super) fn led_to_by(
+        &self,
+        catalogue: &Catalogue,
+        of: &SystemRef,
+        changes: &[&str],
+    ) -> Arc<Vec<TransferFunction>> {
+        match &self.0 {
+            None => Arc::new(catalogue.led_to_by(of, changes)),
+            Some(kept) => {
+                let all = changes.iter().map(|change| (*change).to_owned()).collect();
+                kept.led_to.get((of.clone(), all), |_| catalogue.led_to_by(of, changes))
+            }
         }
     }
 }

@@ -30,7 +30,8 @@ impl Drawn {
     /// Keeps up to `most` bytes.
     pub fn new(most: usize) -> Self {
         let curves = |one: &Result<OwnCurves, String>| one.as_ref().map_or(100, OwnCurves::size);
-        let figures = |all: &Vec<FigureView>| all.iter().map(|one| one.svg_html.len() + 1000).sum();
+        let figures =
+            |all: &Vec<FigureView>| all.iter().map(|one| one.svg_html.len().unwrap_or(0) + 1000).sum();
         Self {
             curves: Memo::of_bytes(most / 2, most / 2 / 10_000, curves),
             figures: Memo::of_bytes(most / 2, most / 2 / 10_000, figures),

@@ -107,12 +107,27 @@ pub(super) fn environment() -> Result<Environment<'static>, ReportError> {
 
 /// A page.
 pub(super) fn render(environment: &Environment<'_>, template: &str, page: &impl serde::Serialize) -> String {
-    let rendered = environment.get_template(template).and_then(|t| t.render(Serde(page)));
+    let mut bytes = Vec::new();
+    render_into(&mut bytes, environment, template, page);
+    String::from_utf8(bytes).unwrap_or_default()
+}
+
+/// A page at the end of `bytes`, in UTF-8.
+pub(super) fn render_into(
+    bytes: &mut Vec<u8>,
+    environment: &Environment<'_>,
+    template: &str,
+    page: &impl serde::Serialize,
+) {
+    let before = bytes.len();
+    let rendered =
+        environment.get_template(template).and_then(|t| t.render_captured_to(Serde(page), &mut *bytes));
     // Templates and views are ours, and tested together; if they disagree all the same, the reader is told.
-    rendered.unwrap_or_else(|e| {
+    if let Err(e) = rendered {
         let words = prose::as_typed(&format!("polemark could not write this page: {e:#}"));
-        format!("<!doctype html><html lang=\"en\"><title>Report</title>{words}</html>")
-    })
+        bytes.truncate(before);
+        bytes.extend(format!("<!doctype html><html lang=\"en\"><title>Report</title>{words}</html>").bytes());
+    }
 }
 
 impl QuestionKit {

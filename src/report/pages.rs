@@ -16,6 +16,18 @@ impl ReportKit {
         self.render("student.html", &student::page(self, submission, scorecard, release))
     }
 
+    /// The same, in UTF-8 at the end of `bytes`: who writes many pages need not ask for memory for each.
+    pub fn write_released_page(
+        &self,
+        bytes: &mut Vec<u8>,
+        submission: &Submission,
+        scorecard: &Scorecard,
+        release: Release,
+    ) {
+        let page = student::page(self, submission, scorecard, release);
+        kit::render_into(bytes, &self.environment, "student.html", &page);
+    }
+
     /// The answer key: from the equations to every reference answer.
     pub fn reference_page(&self) -> String {
         self.reference_page_for(None)

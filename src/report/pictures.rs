@@ -54,7 +54,7 @@ pub struct SimulationPicture {
 
 /// Draws `figure` under `id`.
 pub fn draw(figure: &Figure, id: &str) -> Result<FigureView, FigureError> {
-    Ok(FigureView { svg_html: svg::render(figure, id)?, caption: figure.caption.clone() })
+    Ok(FigureView { svg_html: svg::render(figure, id)?.into(), caption: figure.caption.clone() })
 }
 
 /// The places for figures at a question, from what its criteria ask about.

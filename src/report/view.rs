@@ -10,7 +10,8 @@ use std::borrow::Cow;
 /// A drawn figure.
 #[derive(Clone, Debug, Serialize)]
 pub struct FigureView {
-    pub svg_html: String,
+    /// The same picture stands in many reports: copies share it.
+    pub svg_html: minijinja::Value,
     pub caption: String,
 }
 

@@ -1,4 +1,5 @@
 use crate::algebra::{Rational, parse_decimal};
+use std::sync::LazyLock;
 
 /// A unit of measurement as typed: its symbol, what it measures, and how much of the SI unit it is.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -153,8 +154,10 @@ impl Unit {
             let ratio = self.in_unit(other);
             self.is_known() && ratio.is_some_and(|ratio| ratio.factor != Rational::ONE || ratio.pi != 0)
         };
-        let units = IN_USE.iter().filter_map(|text| Self::parse(text)).chain([Self::one()]);
-        units.filter(differs).collect()
+        static UNITS: LazyLock<Vec<Unit>> = LazyLock::new(|| {
+            IN_USE.iter().filter_map(|text| Unit::parse(text)).chain([Unit::one()]).collect()
+        });
+        UNITS.iter().filter(|unit| differs(unit)).cloned().collect()
     }
 }
 

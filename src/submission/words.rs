@@ -1,5 +1,7 @@
 use super::beside::{BESIDE_NONLINEARITY, BESIDE_STABILITY, TURNS, after_cause, classes, is_harmless};
 use crate::lti::{Shape, Stability};
+use crate::memo::Memo;
+use std::sync::LazyLock;
 
 /// The class of a hard nonlinearity, as a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -18,12 +20,30 @@ pub enum NonlinearityKind {
 ///
 /// `None` when no class, or more than one, is named, or beside it a word that may turn its meaning (`hardly`, `is wrong`).
 pub fn nonlinearity_word(text: &str) -> Option<NonlinearityKind> {
+    static KNOWN: LazyLock<Memo<String, Option<NonlinearityKind>>> = LazyLock::new(|| Memo::of(MOST_KNOWN));
+    remembered(&KNOWN, text, read_nonlinearity)
+}
+
+fn read_nonlinearity(text: &str) -> Option<NonlinearityKind> {
     let (text, remarks) = without_remarks(before_cause(text, OCCASIONS)?)?;
     let kind = one_class(&text, nonlinearity)?;
     let same =
         |remark: &String| is_harmless(remark, &BESIDE_NONLINEARITY) || nonlinearity(remark) == Some(kind);
     remarks.iter().all(same).then_some(kind)
 }
+
+/// Most of a class answers in the same few words.
+fn remembered<T: Copy>(
+    known: &Memo<String, Option<T>>,
+    text: &str,
+    read: fn(&str) -> Option<T>,
+) -> Option<T> {
+    const LONGEST: usize = 80;
+    if text.len() > LONGEST { read(text) } else { *known.get(text.to_owned(), |text| read(text)) }
+}
+
+/// Texts that are kept.
+const MOST_KNOWN: usize = 500;
 
 fn nonlinearity(text: &str) -> Option<NonlinearityKind> {
     let words = Words::new(text)?;
@@ -36,6 +56,11 @@ fn nonlinearity(text: &str) -> Option<NonlinearityKind> {
 /// `None` when no class, more than one, or a denied `unstable` is named, or beside it a word that may turn its meaning
 /// (`almost`, `lacks`, `is false`).
 pub fn stability_word(text: &str) -> Option<Stability> {
+    static KNOWN: LazyLock<Memo<String, Option<Stability>>> = LazyLock::new(|| Memo::of(MOST_KNOWN));
+    remembered(&KNOWN, text, read_stability)
+}
+
+fn read_stability(text: &str) -> Option<Stability> {
     let text = before_cause(text, &[])?;
     // YAML's own words: `stability: no` can mean only one thing.
     if let Some(yes) = yes_or_no(text) {
@@ -119,6 +144,11 @@ fn same_in_all<T: PartialEq>(text: &str, read: impl Fn(&str) -> Option<T>) -> Op
 ///
 /// `None` when no shape, or more than one, is named.
 pub fn shape_word(text: &str) -> Option<Shape> {
+    static KNOWN: LazyLock<Memo<String, Option<Shape>>> = LazyLock::new(|| Memo::of(MOST_KNOWN));
+    remembered(&KNOWN, text, read_shape)
+}
+
+fn read_shape(text: &str) -> Option<Shape> {
     // `underdamped, decaying exponentially` is one shape in two words; two names, or `/` and `or`, make two shapes.
     let two =
         several(named(text, SEPARATORS, shape_by_name)) || several(named(text, ALTERNATIVES, shape_of_part));
