@@ -14,7 +14,9 @@ mod new_file;
 mod numbers;
 mod others;
 mod outcome;
+mod own_files;
 mod record;
+mod results;
 mod roster;
 mod run;
 mod run_facts;
@@ -24,7 +26,7 @@ mod students_seen;
 mod without_marks;
 mod workplace;
 
-pub use compare::{Change, Comparison, Standing, StandingError, compare, comparison_csv, comparison_rows};
+pub use compare::{Change, Comparison, Standing, compare, comparison_csv, comparison_rows};
 pub use gradebook::{GradebookCell, disarmed, gradebook_columns, gradebook_row};
 pub use handouts::{HandoutError, Handouts, write_handouts};
 pub use intake::{
@@ -37,10 +39,12 @@ pub(crate) use new_file::NewFile;
 pub use numbers::read_with_own_values;
 pub use others::OtherVariant;
 pub use outcome::Outcome;
+pub(crate) use own_files::is_own_file;
 pub use record::{
     AdjustmentRecord, FindingRecord, HOLDS, ItemRecord, MarkRecord, Record, ReviewRecord, Status,
     StudentRecord,
 };
+pub use results::{Results, ResultsError, ResultsFacts};
 pub(crate) use roster::name_words;
 pub use roster::{Roster, RosterError, RosterStudent};
 pub use run::{ClassError, ClassJob, Progress, grade_class};

@@ -1,5 +1,5 @@
 use super::run::ClassError;
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// A file that takes its name only when it is whole.
@@ -16,13 +16,19 @@ impl NewFile {
         // Others may read it, as with any file one writes.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
-        let file =
-            builder.tempfile_in(folder).map_err(|error| ClassError::Write { path: path.clone(), error })?;
+        // Without the name of what is only there for a while.
+        let plain = |error: io::Error| error.raw_os_error().map_or(error, io::Error::from_raw_os_error);
+        let file = builder
+            .tempfile_in(folder)
+            .map_err(|error| ClassError::Write { path: path.clone(), error: plain(error) })?;
         Ok(Self { path, file })
     }
 
     pub fn write_all(mut self, bytes: &[u8]) -> Result<(), ClassError> {
-        self.file.write_all(bytes).map_err(|error| ClassError::Write { path: self.path.clone(), error })?;
+        self.file
+            .as_file_mut()
+            .write_all(bytes)
+            .map_err(|error| ClassError::Write { path: self.path.clone(), error })?;
         self.finish()
     }
 

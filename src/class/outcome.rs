@@ -27,7 +27,8 @@ pub struct Outcome {
     pub answers_changed: usize,
     /// Something waits for a person: a mark, a row, a box, or whose a file is.
     pub waiting: bool,
-    pub mean_earned: f64,
+    /// Of the submissions that count on the class page; `None` where there are none.
+    pub mean_earned: Option<f64>,
     pub possible: f64,
     /// Ids in the marks file that nobody in the class has.
     pub marks_without_submission: Vec<String>,

@@ -62,7 +62,7 @@ pub struct RosterStudent {
 pub enum RosterError {
     #[error("`{}` cannot be read: {error}", path.display())]
     Read { path: PathBuf, error: std::io::Error },
-    #[error("`{}` cannot be read: {error}", path.display())]
+    #[error("`{}` cannot be read: {error}{}", path.display(), if matches!(error, DecodeError::NotText { .. }) { SAVE_AS } else { "" })]
     NotText { path: PathBuf, error: DecodeError },
     #[error("{name}:{line}: this is not CSV: {what}")]
     NotCsv { name: String, line: u64, what: String },
@@ -71,6 +71,9 @@ pub enum RosterError {
     #[error("{name}: nobody is on this list")]
     Empty { name: String },
 }
+
+/// Spreadsheets have an encoding of their own as well.
+const SAVE_AS: &str = "; save it as CSV in UTF-8 (in Excel: “CSV UTF-8”)";
 
 /// A course may have so many students, and a list so many bytes.
 const MOST_STUDENTS: usize = 20_000;
@@ -111,8 +114,8 @@ const GROUP: &[&str] = &["group", "groups", "groupname", "team"];
 
 impl Roster {
     pub fn load(path: &Path) -> Result<Self, RosterError> {
-        let bytes =
-            std::fs::read(path).map_err(|error| RosterError::Read { path: path.to_path_buf(), error })?;
+        let bytes = source::read_within(path, MOST_BYTES)
+            .map_err(|error| RosterError::Read { path: path.to_path_buf(), error })?;
         let text = source::decode_within(&bytes, MOST_BYTES)
             .map_err(|error| RosterError::NotText { path: path.to_path_buf(), error })?;
         Self::parse(&SourceText::new(path.to_string_lossy(), text))

@@ -9,6 +9,7 @@ use super::new_file::NewFile;
 use super::numbers::{Benches, WithoutNumbers};
 use super::others::Others;
 use super::outcome::Outcome;
+use super::own_files::foreign_file;
 use super::record::Record;
 use super::run_facts::RunFacts;
 use super::run_records::{RunRecords, Written};
@@ -65,6 +66,10 @@ pub struct Progress {
 pub enum ClassError {
     #[error("`{}` cannot be written: {error}", path.display())]
     Write { path: PathBuf, error: io::Error },
+    #[error(
+        "`{}` is not by polemark and would be overwritten: give another folder with `--out`, or move the file away", path.display()
+    )]
+    Foreign { path: PathBuf },
     #[error("another polemark is writing into `{}`; wait until it has finished", out.display())]
     Busy { out: PathBuf },
     #[error("the gradebook cannot be written: {0}")]
@@ -87,6 +92,9 @@ pub fn grade_class(
     job: &ClassJob<'_>,
     progress: &dyn Fn(Progress) -> ControlFlow<()>,
 ) -> Result<Outcome, ClassError> {
+    if let Some(path) = foreign_file(job.out) {
+        return Err(ClassError::Foreign { path });
+    }
     let withheld = (job.release != Release::ALL).then(|| job.out.join("instructor"));
     for folder in withheld.into_iter().chain([job.out.join("reports")]) {
         std::fs::create_dir_all(&folder).map_err(|error| ClassError::Write { path: folder, error })?;
@@ -185,8 +193,8 @@ pub fn grade_class(
     let reports = statistics.take_reports();
     let facts = NewFile::create(job.out.join("run.json"), &workplace.running())?;
     let index = NewFile::create(job.out.join("index.html"), &workplace.running())?;
-    records.publish(&workplace)?;
-    facts.write_all(RunFacts::of(job).to_text()?.as_bytes())?;
+    let results = records.publish(&workplace)?;
+    facts.write_all(RunFacts::of(job, results).to_text()?.as_bytes())?;
     gradebook_file.finish()?;
     index.write_all(job.kit.class_page(&statistics.summary()).as_bytes())?;
     // Only now does no page link to them.

@@ -1,5 +1,6 @@
 use super::fingerprint::{Fingerprint, fingerprint};
 use super::kept::program_hash;
+use super::results::ResultsFacts;
 use super::run::ClassJob;
 use crate::lab::{CoverSource, LabDefinition};
 use serde::{Deserialize, Serialize};
@@ -18,6 +19,9 @@ pub struct RunFacts {
     /// Tells whether the list of students is what it was; null without one.
     #[serde(default)]
     pub roster: Option<String>,
+    /// Tells whether the results are as they were written; null where an older polemark wrote them.
+    #[serde(default)]
+    pub results: Option<ResultsFacts>,
 }
 
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -64,7 +68,7 @@ pub struct LevelFacts {
 }
 
 impl RunFacts {
-    pub fn of(job: &ClassJob<'_>) -> Self {
+    pub fn of(job: &ClassJob<'_>, results: ResultsFacts) -> Self {
         let shown = |what: &dyn std::fmt::Debug| fingerprint(format!("{what:?}"));
         Self {
             program: ProgramFacts {
@@ -74,6 +78,7 @@ impl RunFacts {
             lab: LabFacts::of(job.lab),
             marks: job.marks.map(|marks| shown(marks)),
             roster: job.roster.map(|roster| shown(roster)),
+            results: Some(results),
         }
     }
 

@@ -2,6 +2,7 @@ use super::desk::SourceFile;
 use super::fingerprint::fingerprint;
 use super::kept::{Entry, EntryPart, Pages};
 use super::record::Record;
+use super::results::{ResultsFacts, ResultsSum};
 use super::run::{ClassError, ClassJob};
 use super::workplace::{KEPT, Workplace};
 use std::fs::File;
@@ -27,6 +28,7 @@ pub struct RunRecords<'a> {
     entries: Growing,
     /// Bytes of `results` so far.
     at: u64,
+    sum: ResultsSum,
     kept: usize,
     /// The entry of the file whose parts are being written.
     open: Option<(usize, Entry)>,
@@ -37,7 +39,7 @@ impl<'a> RunRecords<'a> {
         let folder = workplace.running();
         let results = Growing::create(folder.join("results.jsonl"))?;
         let entries = Growing::create(folder.join(KEPT))?;
-        Ok(Self { job, results, entries, at: 0, kept: 0, open: None })
+        Ok(Self { job, results, entries, at: 0, sum: ResultsSum::default(), kept: 0, open: None })
     }
 
     /// The next part, in order; those of one file come one after another.
@@ -53,6 +55,7 @@ impl<'a> RunRecords<'a> {
             page: written.pages.report.clone(),
             instructor: written.pages.instructor.clone(),
         };
+        self.sum.add(&part.line);
         self.at += length + 1;
         self.kept += usize::from(written.kept);
         if self.open.as_ref().is_none_or(|(place, _)| *place != source.place) {
@@ -78,6 +81,7 @@ impl<'a> RunRecords<'a> {
     pub fn add_unmarked(&mut self, record: &Record) -> Result<(), ClassError> {
         self.close()?;
         let line = record.to_line()?;
+        self.sum.add(&fingerprint(&line));
         self.at += line.len() as u64 + 1;
         self.results.line(&line)
     }
@@ -94,11 +98,13 @@ impl<'a> RunRecords<'a> {
         self.entries.flush()
     }
 
-    /// Puts both in place, the results first: entries that point into older results are found out by their fingerprints.
-    pub fn publish(mut self, workplace: &Workplace) -> Result<(), ClassError> {
+    /// Puts both in place, the results first: entries that point into older results are found out by their fingerprints. Gives
+    /// by what the results are known again.
+    pub fn publish(mut self, workplace: &Workplace) -> Result<ResultsFacts, ClassError> {
         self.flush()?;
         workplace.publish("results.jsonl", &self.job.out.join("results.jsonl"))?;
-        workplace.publish(KEPT, &workplace.kept())
+        workplace.publish(KEPT, &workplace.kept())?;
+        Ok(self.sum.facts())
     }
 
     fn close(&mut self) -> Result<(), ClassError> {

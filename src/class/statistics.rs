@@ -3,7 +3,7 @@ use super::intake::Aside;
 use super::outcome::Outcome;
 use super::record::{ItemRecord, Record, Status};
 use crate::english::listed;
-use crate::lab::{LabDefinition, Points, folded_id};
+use crate::lab::{LabDefinition, folded_id};
 use crate::report::{ClassRow, ClassSummary, IntakeEntry, IntakeKind, People, ReviewEntry, item_anchor};
 use crate::submission::Student;
 use std::collections::{BTreeMap, BTreeSet};
@@ -33,7 +33,6 @@ pub struct Statistics {
     titles: BTreeMap<String, String>,
     reports: BTreeSet<String>,
     outcome: Outcome,
-    total: Points,
 }
 
 impl Statistics {
@@ -59,7 +58,6 @@ impl Statistics {
                 .collect(),
             reports: BTreeSet::new(),
             outcome: Outcome::default(),
-            total: Points::ZERO,
         }
     }
 
@@ -81,7 +79,6 @@ impl Statistics {
         if says_something(record) {
             self.analyse(record);
         }
-        self.total += record.total.earned;
         self.student_ids.extend(record.students.iter().map(|s| folded_id(&s.id)));
         self.reports.extend([&record.report].into_iter().chain(&record.instructor).cloned());
         self.outcome.submissions += 1;
@@ -176,7 +173,7 @@ impl Statistics {
     }
 
     pub fn outcome(&self) -> Outcome {
-        Outcome { mean_earned: self.total.as_f64() / self.count(), ..self.outcome.clone() }
+        Outcome { mean_earned: self.items.mean(), ..self.outcome.clone() }
     }
 
     pub fn summary(self) -> ClassSummary {
@@ -219,11 +216,6 @@ impl Statistics {
     /// The reports of this run, relative to the output folder; they are not needed for the class page.
     pub fn take_reports(&mut self) -> BTreeSet<String> {
         std::mem::take(&mut self.reports)
-    }
-
-    /// At least 1, so that a mean over nobody is 0.
-    fn count(&self) -> f64 {
-        self.outcome.submissions.max(1) as f64
     }
 }
 

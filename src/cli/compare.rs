@@ -23,12 +23,13 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let (old, new) = (Standing::load(&arguments.old)?, Standing::load(&arguments.new)?);
+    same_lab(&arguments.old, &old, new.facts.as_ref().map_or("", |facts| &facts.lab.id))?;
     let comparison = compare(&old, &new);
     match &arguments.out {
         Some(out) => {
             std::fs::create_dir_all(out).map_err(|error| Failure::Write { path: out.clone(), error })?;
             write_comparison(&comparison, &new, out)?;
-            print!("{}", in_short(&comparison));
+            write_output(None, &in_short(&comparison))?;
         }
         None => {
             let mut text = in_short(&comparison);
@@ -43,6 +44,16 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         }
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Marks of another lab than `lab` are of other items. What an older polemark left does not say which lab it is of.
+pub fn same_lab(path: &Path, old: &Standing, lab: &str) -> Result<(), Failure> {
+    match old.facts.as_ref().map(|facts| &facts.lab.id) {
+        Some(old) if !old.is_empty() && !lab.is_empty() && old != lab => {
+            Err(Failure::TwoLabs { path: path.to_path_buf(), old: old.clone(), new: lab.to_owned() })
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Points, or a dash where there are none.

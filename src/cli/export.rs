@@ -1,5 +1,5 @@
 use super::outcome::{Failure, load_bytes};
-use crate::class::NewFile;
+use crate::class::{NewFile, is_own_file};
 use crate::gradebook::{
     ClassMarks, FeedbackFor, Identity, Records, Rules, Summary, Wanted, canvas_by_roster, canvas_filled,
     gradescope, moodle, points_of, worksheet, write_feedback, write_workbook,
@@ -97,6 +97,9 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     {
         return Err(ExportFailure::Overwrites { path: arguments.out.clone() }.into());
     }
+    if is_own_file(&arguments.folder, &arguments.out) {
+        return Err(ExportFailure::OwnFile { path: arguments.out.clone() }.into());
+    }
     let records = Records::open(&arguments.folder)?;
     let folder =
         arguments.out.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
@@ -157,6 +160,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
 pub enum ExportFailure {
     #[error("`{}` is what the LMS exported: write to another file, so that it can be looked at again", path.display())]
     Overwrites { path: PathBuf },
+    #[error("`{}` is what `polemark grade` wrote: write to another file", path.display())]
+    OwnFile { path: PathBuf },
     #[error("Gradescope takes one submission at a time: say which with `--student` or `--file`")]
     WhichSubmission,
     #[error(

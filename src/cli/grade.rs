@@ -1,13 +1,14 @@
-use super::compare::{in_short, write_comparison};
+use super::compare::{in_short, same_lab, write_comparison};
 use super::outcome::{
-    Failure, INTERRUPTED, OURS, THEIRS, colour_on_stderr, load_roster, load_with_reference,
+    Failure, INTERRUPTED, OURS, THEIRS, colour_on_stderr, load_roster, load_with_reference, write_output,
 };
-use crate::class::{ClassJob, Outcome, Standing, compare, find_answer_files, grade_class};
+use crate::algebra::significant;
+use crate::class::{ClassJob, Outcome, Standing, compare, find_answer_files, grade_class, is_own_file};
 use crate::grading::Catalogue;
 use crate::grading::HandMarksFile;
 use crate::lab::{LabDefinition, Release};
 use crate::report::ReportKit;
-use crate::source::{Severity, SourceText, decode_within, sanitize};
+use crate::source::{Finding, Severity, SourceText, decode_within, read_within, sanitize};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -70,10 +71,21 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let given = arguments.marks.as_deref().map(|path| load_marks(path, &lab)).transpose()?;
     let marks = given.as_ref().map(|(marks, _)| marks);
     let roster = arguments.roster.as_deref().map(load_roster).transpose()?;
-    let intake =
-        find_answer_files(&arguments.paths, arguments.marks.as_deref())?.with_attempts_settled(&lab.sheet);
+    let others =
+        [arguments.marks.as_deref(), arguments.roster.as_deref(), arguments.lab.as_deref().map(Path::new)];
+    let others: Vec<&Path> = others.into_iter().flatten().collect();
+    if let Some(path) = others.iter().find(|path| is_own_file(&arguments.out, path)) {
+        return Err(Failure::Overwritten { path: path.to_path_buf(), out: arguments.out.clone() });
+    }
+    let others: Vec<PathBuf> = others.iter().filter_map(|path| path.canonicalize().ok()).collect();
+    // What polemark writes is not handed in, also where it writes into the folder it reads.
+    let leave_out = |path: &Path| others.iter().any(|one| one == path) || is_own_file(&arguments.out, path);
+    let intake = find_answer_files(&arguments.paths, &leave_out)?.with_attempts_settled(&lab.sheet);
     // Read before anything is written into the same folder.
     let before = arguments.compare.as_deref().map(Standing::load).transpose()?;
+    if let (Some(before), Some(path)) = (&before, &arguments.compare) {
+        same_lab(path, before, &lab.id)?;
+    }
     let catalogue = Catalogue::new(&lab, &reference);
     let kit = ReportKit::new(&lab, &reference)?;
     let bar = progress_bar(intake.files.len());
@@ -109,16 +121,14 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         return Ok(ExitCode::from(INTERRUPTED));
     }
     if let Some((_, source)) = &given {
-        for finding in &outcome.decisions_without_answers {
-            eprintln!("{}", finding.render(source, colour_on_stderr()));
-        }
+        eprint!("{}", rendered(&outcome.decisions_without_answers, source));
     }
-    print!("{}", summary(&outcome, &arguments.out));
+    write_output(None, &summary(&outcome, &arguments.out))?;
     if let Some(before) = &before {
         let now = Standing::load(&arguments.out)?;
         let comparison = compare(before, &now);
         write_comparison(&comparison, &now, &arguments.out)?;
-        print!("{}", in_short(&comparison));
+        write_output(None, &in_short(&comparison))?;
     }
     Ok(match &outcome {
         outcome if outcome.failed > 0 => ExitCode::from(OURS),
@@ -133,21 +143,37 @@ const MOST_BYTES_OF_MARKS: usize = 64 << 20;
 /// A marks file with an error in it would lose a person's mark: nothing is graded until it is mended.
 fn load_marks(path: &Path, lab: &LabDefinition) -> Result<(HandMarksFile, SourceText), Failure> {
     let read = |error| Failure::Read { path: path.to_path_buf(), error };
-    let bytes = std::fs::read(path).map_err(read)?;
+    let bytes = read_within(path, MOST_BYTES_OF_MARKS).map_err(read)?;
     let text = decode_within(&bytes, MOST_BYTES_OF_MARKS)
         .map_err(|error| read(std::io::Error::new(std::io::ErrorKind::InvalidData, error.to_string())))?;
     let source = SourceText::new(path.to_string_lossy(), text);
     let (marks, findings) = HandMarksFile::parse(&source, lab);
-    let mut rendered = String::new();
-    for finding in &findings {
-        rendered.push_str(&finding.render(&source, colour_on_stderr()));
-        rendered.push('\n');
-    }
+    let rendered = rendered(&findings, &source);
     if findings.iter().any(|finding| finding.severity == Severity::Error) {
         return Err(Failure::Marks { rendered });
     }
     eprint!("{rendered}");
     Ok((marks, source))
+}
+
+/// So many findings are shown; a table filled in by a slip may have one in each of its rows.
+const MOST_SHOWN: usize = 20;
+
+/// The first findings, by where they stand, and how many more there are.
+fn rendered(findings: &[Finding], source: &SourceText) -> String {
+    let mut findings: Vec<&Finding> = findings.iter().collect();
+    findings
+        .sort_by_key(|finding| (finding.severity != Severity::Error, finding.span.map(|span| span.start)));
+    let mut text = String::new();
+    for finding in findings.iter().take(MOST_SHOWN) {
+        text.push_str(&finding.render(source, colour_on_stderr()));
+        text.push('\n');
+    }
+    let more = findings.len().saturating_sub(MOST_SHOWN);
+    if more > 0 {
+        text.push_str(&format!("and {more} more like these, further down in `{}`\n", sanitize(&source.name)));
+    }
+    text
 }
 
 /// Set when the run is to end: at Ctrl-C, or when the system asks.
@@ -175,12 +201,10 @@ fn progress_bar(submissions: usize) -> ProgressBar {
 
 fn summary(outcome: &Outcome, out: &Path) -> String {
     let shown = |name: &str| sanitize(&out.join(name).to_string_lossy());
-    let mut text = format!(
-        "{} marked, mean {:.1} of {} points\n",
-        counted(outcome.submissions, "submission", "submissions"),
-        outcome.mean_earned,
-        outcome.possible
-    );
+    let mean = outcome.mean_earned.map_or_else(String::new, |mean| {
+        format!(", mean {} of {} points", significant(mean, 4), outcome.possible)
+    });
+    let mut text = format!("{} marked{mean}\n", counted(outcome.submissions, "submission", "submissions"));
     for (count, one, many) in [
         (
             outcome.kept,
@@ -235,12 +259,18 @@ fn summary(outcome: &Outcome, out: &Path) -> String {
             text.push_str(&format!("  {}\n", counted(count, one, many)));
         }
     }
-    for (id, files) in &outcome.ids_given_twice {
+    let twice = outcome.ids_given_twice.iter().map(|(id, files)| {
         let files: Vec<_> = files.iter().map(|file| sanitize(file)).collect();
-        text.push_str(&format!("  several files give the id `{}`: {}\n", sanitize(id), files.join(", ")));
-    }
-    for id in &outcome.marks_without_submission {
-        text.push_str(&format!("  the marks file has marks for `{}`, who handed nothing in\n", sanitize(id)));
+        format!("several files give the id `{}`: {}", sanitize(id), files.join(", "))
+    });
+    let absent = outcome.marks_without_submission.iter();
+    let absent =
+        absent.map(|id| format!("the marks file has marks for `{}`, who handed nothing in", sanitize(id)));
+    for lines in [twice.collect::<Vec<_>>(), absent.collect()] {
+        lines.iter().take(MOST_SHOWN).for_each(|line| text.push_str(&format!("  {line}\n")));
+        if let more @ 1.. = lines.len().saturating_sub(MOST_SHOWN) {
+            text.push_str(&format!("  and {more} more such lines\n"));
+        }
     }
     if outcome.waiting {
         let out = sanitize(&out.to_string_lossy());

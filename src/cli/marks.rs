@@ -1,8 +1,8 @@
 use super::outcome::{Failure, write_output};
-use crate::class::{MarksStub, Record, RunFacts, appended, is_unfinished};
+use crate::class::{MarksStub, Results, appended};
 use crate::source::sanitize;
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -60,19 +60,10 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
 
 /// What waits in an output folder.
 fn stub(folder: &Path) -> Result<MarksStub, Failure> {
-    if is_unfinished(folder) {
-        return Err(Failure::Unfinished { path: folder.to_path_buf() });
-    }
-    let results = folder.join("results.jsonl");
-    let read = |error| Failure::Read { path: results.clone(), error };
-    let file = BufReader::new(File::open(&results).map_err(read)?);
-    let facts = RunFacts::beside(&results).ok_or_else(|| Failure::Read {
-        path: folder.join("run.json"),
-        error: io::Error::new(io::ErrorKind::InvalidData, "run `polemark grade` again, which writes it"),
-    })?;
-    let mut stub = MarksStub::new(facts.lab);
-    for line in file.lines() {
-        stub.add(&Record::from_line(&line.map_err(read)?)?);
+    let results = Results::open(folder)?;
+    let mut stub = MarksStub::new(results.facts().map(|facts| facts.lab.clone()).unwrap_or_default());
+    for record in results {
+        stub.add(&record?);
     }
     Ok(stub)
 }

@@ -1,11 +1,11 @@
 use super::export::ExportFailure;
 use crate::annotations::JunitError;
-use crate::class::{ClassError, IntakeError, Roster, RosterError, StandingError};
+use crate::class::{ClassError, IntakeError, ResultsError, Roster, RosterError};
 use crate::gradebook::ExportError;
 use crate::lab::{LabDefinition, LoadError};
 use crate::reference::{Reference, ReferenceError};
 use crate::report::ReportError;
-use crate::source::sanitize;
+use crate::source::{read_within, sanitize};
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -50,14 +50,16 @@ pub enum Failure {
     ExportArguments(#[from] ExportFailure),
     #[error("{rendered}")]
     Marks { rendered: String },
+    #[error("error: `{}` would be overwritten by what polemark writes into `{}`: give another `--out`", path.display(), out.display())]
+    Overwritten { path: PathBuf, out: PathBuf },
+    #[error("error: `{}` holds results of the lab `{old}`, and not of `{new}`: marks of two labs cannot be compared", path.display())]
+    TwoLabs { path: PathBuf, old: String, new: String },
     #[error("error: {0}")]
-    Standing(#[from] StandingError),
+    Results(#[from] ResultsError),
     #[error("error: a table cannot be written: {0}")]
     Table(#[from] csv::Error),
     #[error("error: `{}` is there already, and is not changed; choose another name, or a table (.csv), to which rows are added", path.display())]
     Exists { path: PathBuf },
-    #[error("error: the last run into `{}` was stopped; run it again to the end first", path.display())]
-    Unfinished { path: PathBuf },
 }
 
 impl Failure {
@@ -86,9 +88,12 @@ pub fn load_lab(lab: Option<&str>) -> Result<LabDefinition, Failure> {
     crate::lab::load(lab.unwrap_or(crate::lab::DEFAULT)).map_err(Failure::Load)
 }
 
-/// The bytes of a file.
+/// What another program exported may be this large, in bytes; more is refused where it is read.
+const MOST_BYTES: usize = 64 << 20;
+
+/// The bytes of a file, as far as it may be long.
 pub fn load_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
-    std::fs::read(path).map_err(|error| Failure::Read { path: path.to_path_buf(), error })
+    read_within(path, MOST_BYTES).map_err(|error| Failure::Read { path: path.to_path_buf(), error })
 }
 
 /// A roster, and on standard error what to look at in it.
@@ -137,17 +142,18 @@ pub fn load_with_reference_of(
     Ok((lab, reference))
 }
 
-/// Colour only on a terminal, and never when `NO_COLOR` is set.
+/// Colour only on a terminal that has colours, and never when `NO_COLOR` is set.
 pub fn colour_on_stderr() -> bool {
-    io::stderr().is_terminal() && no_color_is_unset()
+    io::stderr().is_terminal() && colour_is_wanted()
 }
 
 pub fn colour_on_stdout() -> bool {
-    io::stdout().is_terminal() && no_color_is_unset()
+    io::stdout().is_terminal() && colour_is_wanted()
 }
 
-fn no_color_is_unset() -> bool {
+fn colour_is_wanted() -> bool {
     std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+        && std::env::var_os("TERM").is_none_or(|value| value != "dumb")
 }
 
 /// To `path`, or to standard output.

@@ -1,17 +1,13 @@
 use super::table::TableError;
+use crate::class::ResultsError;
 use crate::lab::Points;
 use std::io;
-use std::path::PathBuf;
 
 /// Why nothing was exported.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
-    #[error("the last run in `{}` was stopped before its end: run `polemark grade` again to finish it", out.display())]
-    Unfinished { out: PathBuf },
-    #[error("`{}` cannot be read: {error}", path.display())]
-    Read { path: PathBuf, error: io::Error },
-    #[error("`{}`: line {line} is not a record: {error}", path.display())]
-    Record { path: PathBuf, line: usize, error: serde_json::Error },
+    #[error(transparent)]
+    Results(#[from] ResultsError),
     #[error("the file cannot be written: {0}")]
     Write(#[from] io::Error),
     #[error("nobody's answers are in the results")]

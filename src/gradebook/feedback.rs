@@ -243,6 +243,7 @@ fn decoded(text: &str) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::class::RunFacts;
     use crate::gradebook::tests::record;
     use std::io::Cursor;
 
@@ -270,6 +271,7 @@ mod tests {
         let mut bytes = Cursor::new(Vec::new());
         let lines: String = records.iter().map(|record| record.to_line().unwrap() + "\n").collect();
         std::fs::write(out.path().join("results.jsonl"), lines).unwrap();
+        std::fs::write(out.path().join("run.json"), RunFacts::default().to_text().unwrap()).unwrap();
         let summary = write_feedback(out.path(), lms, &Rules::default(), &mut bytes).unwrap();
         let mut zip = zip::ZipArchive::new(Cursor::new(bytes.get_ref().clone())).unwrap();
         let found: Vec<String> =

@@ -25,7 +25,7 @@ pub struct Row {
 /// Why a file is no table.
 #[derive(Debug, thiserror::Error, PartialEq, Eq)]
 pub enum TableError {
-    #[error("it has {size} bytes; at most {limit} are read")]
+    #[error("it has more than the {limit} bytes that are read")]
     TooLarge { size: usize, limit: usize },
     #[error("it is UTF-16 text; save it as CSV in UTF-8")]
     Utf16,

@@ -1,4 +1,7 @@
 use std::borrow::Cow;
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
 
 /// An answer file, marks file or lab file may be this large, in bytes.
 pub const MAX_TEXT_BYTES: usize = 256 * 1024;
@@ -6,7 +9,7 @@ pub const MAX_TEXT_BYTES: usize = 256 * 1024;
 /// Why bytes are not a text we read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum DecodeError {
-    #[error("the file has {size} bytes, more than the {limit} we read")]
+    #[error("the file has more than the {limit} bytes that are read")]
     TooLarge { size: usize, limit: usize },
     #[error("the file is not text in UTF-8 or UTF-16 (first at byte {offset})")]
     NotText { offset: usize },
@@ -17,6 +20,13 @@ pub enum DecodeError {
 /// At most [`MAX_TEXT_BYTES`].
 pub fn decode(bytes: &[u8]) -> Result<String, DecodeError> {
     decode_within(bytes, MAX_TEXT_BYTES)
+}
+
+/// The bytes of a file, and not more than one over `limit`: a device never ends.
+pub fn read_within(path: &Path, limit: usize) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(limit as u64 + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
 }
 
 /// Like [`decode`], with another limit on the size.

@@ -5,6 +5,7 @@ mod alike;
 mod authoring;
 mod bench;
 mod by_hand;
+mod careless;
 mod claims;
 mod class_marks;
 mod cli;

@@ -79,6 +79,14 @@ impl ItemAnalysis {
         self.by_total.iter().map(|(total, (n, _))| (Points(*total), *n)).collect()
     }
 
+    /// Mean of the totals, in points; `None` for nobody.
+    pub fn mean(&self) -> Option<f64> {
+        let (sum, n) = self.by_total.iter().fold((0_i128, 0_u64), |(sum, count), (total, (n, _))| {
+            (sum + i128::from(*total) * i128::from(*n), count + n)
+        });
+        (n > 0).then(|| sum as f64 / 100.0 / n as f64)
+    }
+
     /// Of each criterion, in the lab's order.
     pub fn criteria(&self) -> Vec<ItemStatistics> {
         (0..self.criteria).map(|place| self.statistics(place)).collect()

@@ -3,7 +3,7 @@
 mod standing;
 mod written;
 
-pub use standing::{Standing, StandingError};
+pub use standing::Standing;
 pub use written::{comparison_csv, comparison_rows};
 
 use crate::lab::Points;

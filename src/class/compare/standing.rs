@@ -1,12 +1,9 @@
 use crate::class::run_facts::RunFacts;
-use crate::class::{Record, Status};
+use crate::class::{Record, Results, ResultsError, Status};
 use crate::lab::Points;
-use crate::source::sanitize;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::{self, BufRead, BufReader};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// How a class stood after a run: as much of its records as a comparison needs, some kilobytes a student.
 #[derive(Clone, Debug, Default)]
@@ -41,29 +38,16 @@ pub(super) struct Part {
     pub answer: [u8; 8],
 }
 
-#[derive(Debug, thiserror::Error)]
-pub enum StandingError {
-    #[error("`{}` cannot be read: {error}", path.display())]
-    Read { path: PathBuf, error: io::Error },
-    #[error("line {line} of `{}` is not a result of polemark: {what}", path.display())]
-    NotARecord { path: PathBuf, line: usize, what: String },
-}
-
 impl Standing {
     /// From an output folder, or its `results.jsonl`.
-    pub fn load(path: &Path) -> Result<Self, StandingError> {
-        let results = if path.is_dir() { path.join("results.jsonl") } else { path.to_path_buf() };
-        let read = |error| StandingError::Read { path: results.clone(), error };
-        let mut standing = Self::new(RunFacts::beside(&results));
-        let file = BufReader::new(File::open(&results).map_err(read)?);
-        for (place, line) in file.lines().enumerate() {
-            let record =
-                Record::from_line(&line.map_err(read)?).map_err(|error| StandingError::NotARecord {
-                    path: results.clone(),
-                    line: place + 1,
-                    what: sanitize(&error.to_string()),
-                })?;
-            standing.add(&record);
+    pub fn load(path: &Path) -> Result<Self, ResultsError> {
+        let results = match path.is_dir() {
+            true => Results::of_file(&path.join("results.jsonl")),
+            false => Results::of_file(path),
+        }?;
+        let mut standing = Self::new(results.facts().cloned());
+        for record in results {
+            standing.add(&record?);
         }
         Ok(standing)
     }

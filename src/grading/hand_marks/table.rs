@@ -25,7 +25,7 @@ struct Reader<'a> {
     allowed: Allowed<'a>,
     findings: Findings,
     /// For each (student, item, group) that is decided so far, for which answers: none stands for any.
-    seen: BTreeMap<(String, String, String), Vec<BTreeSet<String>>>,
+    seen: BTreeMap<(String, String, String), BTreeSet<BTreeSet<String>>>,
 }
 
 /// One row, its cells without spaces around.
@@ -131,9 +131,8 @@ impl Reader<'_> {
             false => BTreeSet::new(),
         };
         let before = self.seen.entry(key).or_default();
-        let twice = before.iter().any(|one| one.is_empty() || answers.is_empty() || *one == answers);
-        before.push(answers);
-        twice
+        let for_any = answers.is_empty() && !before.is_empty() || before.contains(&BTreeSet::new());
+        !before.insert(answers) || for_any
     }
 
     fn row(&mut self, row: &Row, file: &mut HandMarksFile, alike: &mut AlikeMarks) {

@@ -1,0 +1,171 @@
+//! What a careless hand does: files in the wrong place, tables gone wrong, results changed by hand.
+
+use crate::program::{Program, files_below};
+use std::fs;
+
+fn answers(id: &str) -> String {
+    format!("lab: ee361-lab3\nstudent: {{id: {id}, name: A}}\nanswers:\n  battery.nonlinearity: dead zone\n")
+}
+
+fn class() -> Program {
+    let program = Program::new();
+    program.write("in/a.yaml", &answers("EE-1"));
+    program.write("in/b.yaml", &answers("EE-2"));
+    program
+}
+
+#[track_caller]
+fn refused(program: &Program, arguments: &[&str], why: &str) {
+    let ran = program.run(arguments).ends_with(2);
+    assert!(ran.err.contains(why), "{arguments:?}: {}", ran.err);
+}
+
+#[test]
+fn results_changed_by_hand_are_not_passed_on() {
+    let program = class();
+    program.run(&["grade", "in", "--out", "out"]).ends_with(0);
+    program.run(&["grade", "in", "--out", "before"]).ends_with(0);
+    let whole = fs::read_to_string(program.path("out/results.jsonl")).unwrap();
+    let (first, second) = whole.split_once('\n').unwrap();
+    for changed in [
+        whole.replacen("\"earned\":0.0", "\"earned\":9.0", 1),
+        whole.replacen("\"total\":{\"earned\":1.0", "\"total\":{\"earned\":44.0", 1),
+        format!("{first}\n{first}\n{second}"),
+        second.to_owned(),
+        String::new(),
+    ] {
+        assert_ne!(changed, whole);
+        program.write("out/results.jsonl", &changed);
+        for arguments in [
+            &["marks", "out"][..],
+            &["marks", "out", "--out", "marks.yaml"],
+            &["export", "out", "--to", "moodle", "--as-it-stands", "--out", "x.csv"],
+            &["export", "out", "--to", "xlsx", "--out", "x.xlsx"],
+            &[
+                "export",
+                "out",
+                "--to",
+                "gradescope",
+                "--student",
+                "EE-1",
+                "--as-it-stands",
+                "--out",
+                "x.json",
+            ],
+            &["compare", "before", "out"],
+            &["compare", "out", "before"],
+        ] {
+            refused(&program, arguments, "`out/results.jsonl` is not as `polemark grade` wrote it");
+        }
+    }
+    program.write("out/results.jsonl", &whole.replacen("\"earned\":0.0", "\"earned\":\"many\"", 1));
+    for arguments in [&["marks", "out"][..], &["compare", "before", "out"]] {
+        refused(&program, arguments, "line 1 of `out/results.jsonl` is not a result of polemark");
+    }
+    assert!(!program.path("marks.yaml").exists() && !program.path("x.csv").exists());
+    program.run(&["grade", "in", "--out", "out"]).ends_with(0);
+    assert_eq!(fs::read_to_string(program.path("out/results.jsonl")).unwrap(), whole);
+    program.run(&["compare", "before", "out"]).ends_with(0);
+    fs::remove_file(program.path("out/run.json")).unwrap();
+    refused(&program, &["export", "out", "--to", "xlsx", "--out", "x.xlsx"], "`out/run.json` cannot be read");
+}
+
+#[test]
+fn marks_of_two_labs_are_not_compared() {
+    let program = class();
+    program.run(&["grade", "in", "--out", "one"]).ends_with(0);
+    program.run(&["grade", "in", "--out", "two", "--lab", "coupled-tanks"]).ends_with(0);
+    let why = "`one` holds results of the lab `ee361-lab3`, and not of `coupled-tanks`";
+    refused(&program, &["compare", "one", "two"], why);
+    let grade = ["grade", "in", "--out", "three", "--lab", "coupled-tanks", "--compare", "one"];
+    refused(&program, &grade, why);
+    assert!(!program.path("three").exists());
+}
+
+#[test]
+fn nothing_of_somebody_else_is_overwritten() {
+    let program = class();
+    program.write("mine/gradebook.csv", "id,name\nEE-1,A\n");
+    let grade = ["grade", "in", "--roster", "mine/gradebook.csv", "--out", "mine"];
+    refused(&program, &grade, "`mine/gradebook.csv` would be overwritten");
+    refused(&program, &["grade", "in", "--out", "mine"], "`mine/gradebook.csv` is not by polemark");
+    let left: Vec<String> = files_below(&program.path("mine")).into_keys().collect();
+    assert_eq!(left, ["gradebook.csv"]);
+
+    program.run(&["grade", "in", "--out", "out"]).ends_with(0);
+    let before = files_below(&program.path("out"));
+    for name in ["results.jsonl", "gradebook.csv", "reports/EE-1.html"] {
+        let out = format!("out/{name}");
+        let export = ["export", "out", "--to", "moodle", "--as-it-stands", "--out", out.as_str()];
+        refused(&program, &export, "is what `polemark grade` wrote");
+    }
+    assert_eq!(files_below(&program.path("out")), before);
+}
+
+#[test]
+fn what_polemark_writes_is_not_handed_in() {
+    for out in ["in", "in/out"] {
+        let program = class();
+        program.write("in/roster.csv", "id\nEE-1\nEE-2\n");
+        let grade = ["grade", "in", "--roster", "in/roster.csv", "--out", out];
+        let first = program.run(&grade).ends_with(0).out;
+        assert!(!first.contains("not marked"), "{first}");
+        let page = fs::read(program.path(out).join("index.html")).unwrap();
+        let again = program.run(&grade).ends_with(0).out;
+        assert!(!again.contains("not marked"), "{again}");
+        assert_eq!(fs::read(program.path(out).join("index.html")).unwrap(), page);
+    }
+}
+
+#[test]
+fn a_table_full_of_slips_is_told_in_short() {
+    let program = class();
+    let row = "EE-1,battery.nonlinearity.class,,1,seen,\n";
+    program
+        .write("marks.csv", &format!("student_id,item,group,points,reason,answer\n{}", row.repeat(100_000)));
+    let told = program.run(&["grade", "in", "--out", "out", "--marks", "marks.csv"]).ends_with(1).err;
+    assert_eq!(told.matches("error[marks.twice]").count(), 20);
+    assert!(told.trim_end().ends_with("and 99979 more like these, further down in `marks.csv`"), "{told}");
+    let rows: String = (0..100).map(|number| format!("XX-{number},viva,,1,,\n")).collect();
+    program.write("marks.csv", &format!("student_id,item,group,points,reason,answer\n{rows}"));
+    let told = program.run(&["grade", "in", "--out", "out", "--marks", "marks.csv"]).ends_with(0).out;
+    assert!(told.contains("  and 80 more such lines\n"), "{told}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn what_never_ends_is_not_read_to_its_end() {
+    let program = class();
+    refused(
+        &program,
+        &["grade", "in", "--out", "out", "--roster", "/dev/zero"],
+        "more than the 8388608 bytes",
+    );
+    let grade = ["grade", "in", "--out", "out", "--marks", "/dev/zero"];
+    refused(&program, &grade, "more than the 67108864 bytes");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_said() {
+    let program = class();
+    let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_polemark"))
+        .args(["grade", "in", "--out", "out"])
+        .current_dir(program.folder.path())
+        .stdout(full)
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert!(told.starts_with("error: the output cannot be written: No space left on device"), "{told}");
+}
+
+#[test]
+fn the_mean_is_that_of_the_class_page() {
+    let program = class();
+    program.write("in/c.yaml", "lab: [\n");
+    let told = program.run(&["grade", "in", "--out", "out"]).ends_with(0).out;
+    assert!(told.starts_with("3 submissions marked, mean 1 of 45 points\n"), "{told}");
+    assert!(fs::read_to_string(program.path("out/index.html")).unwrap().contains("Mean</dt><dd>1 of 45"));
+}
