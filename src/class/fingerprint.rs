@@ -1,5 +1,8 @@
 use sha2::{Digest, Sha256};
 use std::fmt::Debug;
+use std::fs::File;
+use std::io::{self, BufRead, BufReader};
+use std::path::Path;
 
 /// Tells whether something is what it was: SHA-256 over parts, each with its length, so that parts cannot run together.
 #[derive(Clone, Default)]
@@ -16,6 +19,21 @@ impl Fingerprint {
     /// Everything that `Debug` shows of a value.
     pub fn with_shown(self, part: &impl Debug) -> Self {
         self.with(format!("{part:?}"))
+    }
+
+    /// The fingerprint of a file of any size.
+    pub fn of_file(path: &Path) -> io::Result<String> {
+        let mut file = BufReader::with_capacity(1 << 16, File::open(path)?);
+        let mut all = Self::default();
+        loop {
+            let piece = file.fill_buf()?;
+            let length = piece.len();
+            if length == 0 {
+                return Ok(all.hex());
+            }
+            all.0.update(piece);
+            file.consume(length);
+        }
     }
 
     /// 32 hexadecimal digits.

@@ -171,7 +171,7 @@ fn line_at(file: &Mutex<File>, at: u64) -> Option<String> {
 /// The fingerprint of this very program; `None` when it cannot read itself.
 pub fn program_hash() -> Option<&'static str> {
     static HASH: OnceLock<Option<String>> = OnceLock::new();
-    let read = || Some(fingerprint(std::fs::read(std::env::current_exe().ok()?).ok()?));
+    let read = || Fingerprint::of_file(&std::env::current_exe().ok()?).ok();
     HASH.get_or_init(read).as_deref()
 }
 

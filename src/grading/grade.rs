@@ -100,8 +100,9 @@ pub(super) fn scorecard(
                 .iter()
                 .zip(marks)
                 .map(|(criterion, mark)| {
-                    let item = item_score(criterion, mark.clone(), submission, &answers, hand);
-                    ledger.enter(&item, &mark);
+                    let (spared, withheld) = (mark.spared, mark.withheld);
+                    let item = item_score(criterion, mark, submission, &answers, hand);
+                    ledger.enter(&item, spared, withheld);
                     item
                 })
                 .collect();

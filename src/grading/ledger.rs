@@ -1,4 +1,3 @@
-use super::mark::Mark;
 use super::{Guard, ItemScore, Verdict};
 use crate::lab::Points;
 
@@ -65,8 +64,8 @@ pub struct Spared {
 }
 
 impl Ledger {
-    /// Enters one criterion: `mark` as polemark gave it, `item` after a person had a say.
-    pub(super) fn enter(&mut self, item: &ItemScore, mark: &Mark) {
+    /// Enters one criterion: `item` after a person had a say, `spared` and `withheld` by the mark before.
+    pub(super) fn enter(&mut self, item: &ItemScore, spared: Points, withheld: Points) {
         let mut lost = |points: i64, cause: Cause| {
             if points != 0 {
                 self.lost.push(Loss { item: item.id.clone(), points: Points(points), cause });
@@ -82,11 +81,11 @@ impl Ledger {
             (Verdict::Unreadable, _) => lost(missing, Cause::Unreadable),
             (Verdict::Unmarked, _) => lost(missing, Cause::Unmarked),
             (_, Some(followed)) if followed.credited => {
-                lost(mark.withheld.0, Cause::Part { root: followed.root.clone() });
-                lost(missing - mark.withheld.0, Cause::Here);
+                lost(withheld.0, Cause::Part { root: followed.root.clone() });
+                lost(missing - withheld.0, Cause::Here);
                 self.spared.push(Spared {
                     item: item.id.clone(),
-                    points: mark.spared,
+                    points: spared,
                     root: followed.root.clone(),
                 });
             }
