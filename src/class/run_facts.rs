@@ -2,7 +2,7 @@ use super::fingerprint::{Fingerprint, fingerprint};
 use super::kept::program_hash;
 use super::results::ResultsFacts;
 use super::run::ClassJob;
-use crate::lab::{CoverSource, LabDefinition};
+use crate::lab::{CoverSource, LabDefinition, Release};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -19,6 +19,9 @@ pub struct RunFacts {
     /// Tells whether the list of students is what it was; null without one.
     #[serde(default)]
     pub roster: Option<String>,
+    /// What students get to see; null where an older polemark wrote the reports.
+    #[serde(default)]
+    pub release: Option<Release>,
     /// Tells whether the results are as they were written; null where an older polemark wrote them.
     #[serde(default)]
     pub results: Option<ResultsFacts>,
@@ -78,6 +81,7 @@ impl RunFacts {
             lab: LabFacts::of(job.lab),
             marks: job.marks.map(|marks| shown(marks)),
             roster: job.roster.map(|roster| shown(roster)),
+            release: Some(job.release),
             results: Some(results),
         }
     }

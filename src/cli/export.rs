@@ -91,6 +91,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         as_it_stands: arguments.as_it_stands,
         zero_for_missing: arguments.zero_for_missing,
         scale_to: arguments.scale_to,
+        withhold_marks: false,
     };
     if let Some(lms) = &arguments.lms
         && is_same_file(lms, &arguments.out)
@@ -101,6 +102,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         return Err(ExportFailure::OwnFile { path: arguments.out.clone() }.into());
     }
     let records = Records::open(&arguments.folder)?;
+    let rules = Rules { withhold_marks: records.withhold_marks(), ..rules };
     let folder =
         arguments.out.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut new = NewFile::create(arguments.out.clone(), folder)?;
@@ -112,7 +114,11 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
                 (None, None) => return Err(ExportFailure::WhichSubmission.into()),
             };
             new.write_all(&gradescope(records, &wanted, &rules)?)?;
-            ("submission", Summary { given: 1, ..Summary::default() })
+            let mut summary = Summary { given: 1, ..Summary::default() };
+            if rules.withhold_marks {
+                summary.notes.push(HIDDEN_TESTS.to_owned());
+            }
+            ("submission", summary)
         }
         Target::Xlsx => {
             let students = write_workbook(records, folder, &mut new.file)?;
@@ -136,6 +142,9 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
                 (Target::Canvas, Some(file), assignment) => canvas_filled(&class, &file, assignment)?,
                 (Target::Canvas, None, Some(assignment)) => canvas_by_roster(&class, assignment)?,
                 (Target::Canvas, None, None) => return Err(ExportFailure::WhichAssignment.into()),
+                (Target::MoodleWorksheet, Some(_), _) if arguments.comments && rules.withhold_marks => {
+                    return Err(ExportFailure::Withheld.into());
+                }
                 (Target::MoodleWorksheet, Some(file), _) => worksheet(&class, &file, arguments.comments)?,
                 (Target::MoodleWorksheet, None, _) => return Err(ExportFailure::NoWorksheet.into()),
                 (_, _, title) => {
@@ -168,9 +177,16 @@ pub enum ExportFailure {
         "give Canvas' own gradebook with `--lms`, or the assignment as Canvas writes it with `--assignment \"Title (id)\"`"
     )]
     WhichAssignment,
+    #[error(
+        "the lab, or `--release`, withholds points from students: without `--comments` only the mark is written"
+    )]
+    Withheld,
     #[error("give the grading worksheet that Moodle exported with `--lms`")]
     NoWorksheet,
 }
+
+const HIDDEN_TESTS: &str =
+    "marks are withheld from students: the tests are hidden from them; the mark on top is what you publish";
 
 fn is_same_file(one: &Path, two: &Path) -> bool {
     match (one.canonicalize(), two.canonicalize()) {

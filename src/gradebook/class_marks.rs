@@ -13,6 +13,8 @@ pub struct Rules {
     pub zero_for_missing: bool,
     /// Marks are scaled to be out of so many points.
     pub scale_to: Option<Points>,
+    /// Students are not to see their points.
+    pub withhold_marks: bool,
 }
 
 impl Rules {
@@ -254,7 +256,12 @@ mod tests {
                 "EE-011: 1 adjustment waits for a person",
             ],
         );
-        let rules = Rules { as_it_stands: true, zero_for_missing: true, scale_to: Some(Points(10_000)) };
+        let rules = Rules {
+            as_it_stands: true,
+            zero_for_missing: true,
+            scale_to: Some(Points(10_000)),
+            ..Rules::default()
+        };
         let out = [
             "EE-001 75",
             "EE-002 75",

@@ -41,7 +41,8 @@ impl Wanted {
 ///   adjustments are no tests; `output` on top says what the adjustments are for. It must be a number, and so nothing is written for a mark that waits for a person, unless `rules` say so.
 /// - A test has `score`, `max_score`, `name`, `number` (question and criterion), `status`, and in `output` what was found and
 ///   why, as text, which Gradescope escapes; control characters are taken out. A row that is not given yet has no `score`.
-/// - `visibility` is `after_published`: students see nothing before the instructor publishes.
+/// - `visibility` is `after_published`: students see nothing before the instructor publishes. Where marks are withheld from
+///   students it is `hidden`: tests with their scores are never shown to them, nor what the adjustments are for.
 /// - With `scale_to` the mark on top is scaled, and the tests are not.
 ///
 /// Source: Gradescope, Autograder Specifications, Output Format (gradescope-autograders.readthedocs.io/en/latest/specs).
@@ -70,13 +71,14 @@ pub fn gradescope(
         Some(to) => scaled(mark, out_of(&record), to).ok_or(ExportError::NothingToScale)?,
         None => mark,
     };
+    let visibility = if rules.withhold_marks { HIDDEN } else { AFTER_PUBLISHED };
     let results = Results {
         score: number(mark),
-        output: adjustments(&record),
+        output: if rules.withhold_marks { String::new() } else { adjustments(&record) },
         output_format: "text",
-        visibility: AFTER_PUBLISHED,
+        visibility,
         stdout_visibility: "hidden",
-        tests: tests(&record),
+        tests: tests(&record, visibility),
     };
     let mut bytes = serde_json::to_vec_pretty(&results)?;
     bytes.push(b'\n');
@@ -84,6 +86,7 @@ pub fn gradescope(
 }
 
 const AFTER_PUBLISHED: &str = "after_published";
+const HIDDEN: &str = "hidden";
 
 #[derive(Serialize)]
 struct Results {
@@ -120,7 +123,7 @@ fn adjustments(record: &Record) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-fn tests(record: &Record) -> Vec<Test> {
+fn tests(record: &Record, visibility: &'static str) -> Vec<Test> {
     let mut tests = Vec::new();
     for (question, place) in record.questions.iter().zip(1..) {
         let of_question = |item: &&ItemRecord| {
@@ -141,6 +144,7 @@ fn tests(record: &Record) -> Vec<Test> {
         let output = if row.earned.is_some() { "given by a person" } else { "not given yet" };
         tests.push(test(&row.id, row.earned, row.possible, None, output.to_owned()));
     }
+    tests.iter_mut().for_each(|test| test.visibility = visibility);
     tests
 }
 
@@ -210,6 +214,12 @@ mod tests_of_gradescope {
             (&json!("1.2"), &json!("passed"))
         );
         assert_eq!((&json["tests"][2]["name"], &json["tests"][2]["score"]), (&json!("tidy"), &json!(3)));
+        let withheld = Rules { withhold_marks: true, ..Rules::default() };
+        let json =
+            results(vec![record("EE-001", "Jane")], &Wanted::Student("EE-001".to_owned()), withheld).unwrap();
+        let tests = json["tests"].as_array().unwrap();
+        assert!(json["visibility"] == "hidden" && tests.iter().all(|test| test["visibility"] == "hidden"));
+        assert!(json["score"] == json!(7.5) && json.get("output").is_none());
         let no_other_keys = ["score", "output_format", "visibility", "stdout_visibility", "tests"];
         assert!(json.as_object().unwrap().keys().all(|key| no_other_keys.contains(&key.as_str())));
     }

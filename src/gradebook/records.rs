@@ -10,6 +10,11 @@ impl Records {
     pub fn open(out: &Path) -> Result<Self, ExportError> {
         Ok(Self(Results::open(out)?))
     }
+
+    /// Whether students are not to see their points: the lab says so, or `grade --release`.
+    pub fn withhold_marks(&self) -> bool {
+        self.0.facts().and_then(|facts| facts.release).is_some_and(|release| !release.marks)
+    }
 }
 
 impl Iterator for Records {

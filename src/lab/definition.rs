@@ -70,7 +70,7 @@ pub struct Grade {
 }
 
 /// What students get to see in their reports.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Release {
     /// Points.
     pub marks: bool,

@@ -169,3 +169,33 @@ fn the_mean_is_that_of_the_class_page() {
     assert!(told.starts_with("3 submissions marked, mean 1 of 45 points\n"), "{told}");
     assert!(fs::read_to_string(program.path("out/index.html")).unwrap().contains("Mean</dt><dd>1 of 45"));
 }
+
+#[test]
+fn withheld_points_are_not_told_by_an_export() {
+    let program = class();
+    let worksheet = "Identifier,Full name,Grade,Maximum grade,Feedback comments\nParticipant 1,A,,100.00,\n";
+    program.write("worksheet.csv", worksheet);
+    let gradescope =
+        ["export", "out", "--to", "gradescope", "--student", "EE-1", "--as-it-stands", "--out", "x.json"];
+    for (release, visibility, code) in [("marks,feedback", "after_published", 0), ("feedback", "hidden", 2)] {
+        program.run(&["grade", "in", "--out", "out", "--release", release]).ends_with(0);
+        program.run(&gradescope).ends_with(0);
+        let json = fs::read(program.path("x.json")).unwrap();
+        let json: serde_json::Value = serde_json::from_slice(&json).unwrap();
+        let tests = json["tests"].as_array().unwrap();
+        assert!(tests.len() > 20 && tests.iter().all(|test| test["visibility"] == visibility), "{release}");
+        assert_eq!(json["visibility"], visibility);
+        let comments = [
+            "export",
+            "out",
+            "--to",
+            "moodle-worksheet",
+            "--lms",
+            "worksheet.csv",
+            "--comments",
+            "--out",
+            "y.csv",
+        ];
+        program.run(&comments).ends_with(code);
+    }
+}
