@@ -13,6 +13,8 @@ pub struct Bench {
     pub lab: LabDefinition,
     pub reference: Reference,
     pub catalogue: Catalogue,
+    /// Of everything that was marked by this bench.
+    known: Known,
 }
 
 impl Bench {
@@ -71,7 +73,7 @@ impl Bench {
     fn new(lab: LabDefinition) -> Self {
         let reference = Reference::compute(&lab).expect("the lab has a reference");
         let catalogue = Catalogue::new(&lab, &reference);
-        Self { lab, reference, catalogue }
+        Self { lab, reference, catalogue, known: Known::new() }
     }
 
     /// What an answer file has below `answers:`; files are those of `submissions/`.
@@ -80,8 +82,13 @@ impl Bench {
         submission::read("example", "example.yaml", file.as_bytes(), &self.lab.sheet, &Folder(folder()))
     }
 
+    /// What is known of earlier submissions makes no difference.
     pub fn grade(&self, submission: &Submission) -> Scorecard {
-        grading::grade(&self.lab, &self.reference, &self.catalogue, submission, None)
+        let Self { lab, reference, catalogue, known } = self;
+        let scorecard = grading::grade(lab, reference, catalogue, submission, None);
+        let in_class = || grading::grade_knowing(known, lab, reference, catalogue, submission, None);
+        assert_eq!([in_class(), in_class()], [scorecard.clone(), scorecard.clone()], "{}", submission.id);
+        scorecard
     }
 
     /// The marks of what an answer file has below `answers:`.
@@ -114,7 +121,7 @@ impl Bench {
             Submission { students: students.iter().map(student).collect(), ..bench.read(answers) };
         let card = |id: &String| MemberCard { id: id.clone(), scorecard: own(id).grade(&submission) };
         let members: Vec<MemberCard> = others.iter().map(card).collect();
-        let Bench { lab, reference, catalogue } = &bench;
+        let Bench { lab, reference, catalogue, .. } = &bench;
         items(grading::grade_beside_members(
             &Known::NOTHING,
             lab,

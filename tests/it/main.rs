@@ -19,6 +19,7 @@ mod hard_table;
 mod held_ball;
 mod hostile_archives;
 mod intake;
+mod known;
 mod laws;
 mod ledger;
 mod letters;
