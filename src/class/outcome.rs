@@ -33,7 +33,8 @@ pub struct Outcome {
     /// Ids in the marks file that nobody in the class has.
     pub marks_without_submission: Vec<String>,
     /// Decisions of the marks file about groups of like answers that no answer is in.
-    pub decisions_without_answers: Vec<Finding>,
+    /// Each with the number of the marks file it is in.
+    pub decisions_without_answers: Vec<(usize, Finding)>,
     /// (id, files) of student ids that more than one file gives.
     pub ids_given_twice: Vec<(String, Vec<String>)>,
     /// Reports that polemark had written of answers that are not there any more.

@@ -3,13 +3,16 @@ use super::outcome::{
     Failure, INTERRUPTED, OURS, THEIRS, colour_on_stderr, load_roster, load_with_reference, write_output,
 };
 use crate::algebra::significant;
-use crate::class::{ClassJob, Outcome, Standing, compare, find_answer_files, grade_class, is_own_file};
+use crate::class::{
+    ClassJob, Outcome, RunFacts, Standing, compare, find_answer_files, grade_class, is_own_file,
+};
 use crate::grading::Catalogue;
-use crate::grading::HandMarksFile;
+use crate::grading::{Contradiction, HandMarksFile};
 use crate::lab::{LabDefinition, Release};
 use crate::report::ReportKit;
 use crate::source::{Finding, Severity, SourceText, decode_within, read_within, sanitize};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -31,9 +34,9 @@ pub struct Arguments {
     /// Embedded lab, or path of a lab file [default: ee361-lab3].
     #[arg(long)]
     lab: Option<String>,
-    /// Marks given by a person: viva, observed rows, changed items; never written to.
+    /// Marks given by a person: viva, observed rows, changed items; never written to. May be given several times.
     #[arg(long, value_name = "FILE")]
-    marks: Option<PathBuf>,
+    marks: Vec<PathBuf>,
     /// The course's students: a CSV with columns id and name, Canvas' gradebook or Moodle's grading worksheet. Who is not on it
     /// is pointed out, and who handed nothing in gets a row.
     #[arg(long, value_name = "FILE")]
@@ -68,12 +71,12 @@ enum Shown {
 
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let (lab, reference) = load_with_reference(arguments.lab.as_deref())?;
-    let given = arguments.marks.as_deref().map(|path| load_marks(path, &lab)).transpose()?;
+    let given = load_marks(&arguments.marks, &lab)?;
     let marks = given.as_ref().map(|(marks, _)| marks);
     let roster = arguments.roster.as_deref().map(load_roster).transpose()?;
-    let others =
-        [arguments.marks.as_deref(), arguments.roster.as_deref(), arguments.lab.as_deref().map(Path::new)];
-    let others: Vec<&Path> = others.into_iter().flatten().collect();
+    let others = [arguments.roster.as_deref(), arguments.lab.as_deref().map(Path::new)];
+    let others: Vec<&Path> =
+        others.into_iter().flatten().chain(arguments.marks.iter().map(PathBuf::as_path)).collect();
     if let Some(path) = others.iter().find(|path| is_own_file(&arguments.out, path)) {
         return Err(Failure::Overwritten { path: path.to_path_buf(), out: arguments.out.clone() });
     }
@@ -86,6 +89,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     if let (Some(before), Some(path)) = (&before, &arguments.compare) {
         same_lab(path, before, &lab.id)?;
     }
+    let last = RunFacts::beside(&arguments.out.join("results.jsonl"));
     let catalogue = Catalogue::new(&lab, &reference);
     let kit = ReportKit::new(&lab, &reference)?;
     let bar = progress_bar(intake.files.len());
@@ -120,10 +124,27 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         );
         return Ok(ExitCode::from(INTERRUPTED));
     }
-    if let Some((_, source)) = &given {
-        eprint!("{}", rendered(&outcome.decisions_without_answers, source));
+    for (number, source) in given.iter().flat_map(|(_, sources)| sources).enumerate() {
+        let of_this = outcome.decisions_without_answers.iter().filter(|(file, _)| *file == number);
+        eprint!("{}", rendered(of_this.map(|(_, finding)| finding).collect(), source));
     }
     write_output(None, &summary(&outcome, &arguments.out))?;
+    let had =
+        |what: fn(&RunFacts) -> &Option<String>| last.as_ref().is_some_and(|facts| what(facts).is_some());
+    for (forgotten, what) in [
+        (marks.is_none() && had(|facts| &facts.marks), "a marks file: what a person gave is not in this one"),
+        (
+            roster.is_none() && had(|facts| &facts.roster),
+            "a list of the course: who handed nothing in has no row now",
+        ),
+    ] {
+        if forgotten {
+            eprintln!(
+                "warning: the last run into `{}` had {what}",
+                sanitize(&arguments.out.to_string_lossy())
+            );
+        }
+    }
     if let Some(before) = &before {
         let now = Standing::load(&arguments.out)?;
         let comparison = compare(before, &now);
@@ -140,15 +161,50 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
 /// A marks file of a class of thousands has its room in this.
 const MOST_BYTES_OF_MARKS: usize = 64 << 20;
 
-/// A marks file with an error in it would lose a person's mark: nothing is graded until it is mended.
-fn load_marks(path: &Path, lab: &LabDefinition) -> Result<(HandMarksFile, SourceText), Failure> {
+/// Marks files as one, and their texts. An error in one of them, or a contradiction, would lose a person's mark: nothing is graded
+/// until it is mended. A file that is named twice counts once.
+fn load_marks(
+    paths: &[PathBuf],
+    lab: &LabDefinition,
+) -> Result<Option<(HandMarksFile, Vec<SourceText>)>, Failure> {
+    let mut seen = BTreeSet::new();
+    let paths =
+        paths.iter().filter(|path| seen.insert(path.canonicalize().unwrap_or_else(|_| path.to_path_buf())));
+    let (mut files, mut sources) = (Vec::new(), Vec::new());
+    for path in paths {
+        let (file, source) = load_marks_file(path, lab)?;
+        files.push(file);
+        sources.push(source);
+    }
+    if files.is_empty() {
+        return Ok(None);
+    }
+    let (marks, contradictions) = HandMarksFile::merged(files);
+    let mut text = String::new();
+    for Contradiction { what, places: [first, again] } in contradictions.iter().take(MOST_SHOWN) {
+        let (Some(source), Some(other)) = (sources.get(again.file), sources.get(first.file)) else {
+            continue;
+        };
+        let line = other.position(first.span.start).line;
+        let help = format!("It is said first in `{}`, line {line}. Keep one.", sanitize(&other.name));
+        let finding = Finding::error("marks.twice", format!("{what}.")).with_help(help).at(again.span);
+        text.push_str(&finding.render(source, colour_on_stderr()));
+        text.push('\n');
+    }
+    match contradictions.is_empty() {
+        true => Ok(Some((marks, sources))),
+        false => Err(Failure::Marks { rendered: text }),
+    }
+}
+
+fn load_marks_file(path: &Path, lab: &LabDefinition) -> Result<(HandMarksFile, SourceText), Failure> {
     let read = |error| Failure::Read { path: path.to_path_buf(), error };
     let bytes = read_within(path, MOST_BYTES_OF_MARKS).map_err(read)?;
     let text = decode_within(&bytes, MOST_BYTES_OF_MARKS)
         .map_err(|error| read(std::io::Error::new(std::io::ErrorKind::InvalidData, error.to_string())))?;
     let source = SourceText::new(path.to_string_lossy(), text);
     let (marks, findings) = HandMarksFile::parse(&source, lab);
-    let rendered = rendered(&findings, &source);
+    let rendered = rendered(findings.iter().collect(), &source);
     if findings.iter().any(|finding| finding.severity == Severity::Error) {
         return Err(Failure::Marks { rendered });
     }
@@ -160,8 +216,7 @@ fn load_marks(path: &Path, lab: &LabDefinition) -> Result<(HandMarksFile, Source
 const MOST_SHOWN: usize = 20;
 
 /// The first findings, by where they stand, and how many more there are.
-fn rendered(findings: &[Finding], source: &SourceText) -> String {
-    let mut findings: Vec<&Finding> = findings.iter().collect();
+fn rendered(mut findings: Vec<&Finding>, source: &SourceText) -> String {
     findings
         .sort_by_key(|finding| (finding.severity != Severity::Error, finding.span.map(|span| span.start)));
     let mut text = String::new();

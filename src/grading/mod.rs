@@ -49,7 +49,8 @@ pub use follow_through::FollowThrough;
 pub use grade::{grade, grade_knowing, leave_to_a_person};
 pub use guard::Guard;
 pub use hand_marks::{
-    Adjustment, AlikeMarks, Given, HandMarks, HandMarksFile, LateCost, LateRule, NO_ANSWER, Override,
+    Adjustment, AlikeMarks, Contradiction, Given, HandMarks, HandMarksFile, LateCost, LateRule, NO_ANSWER,
+    Override,
 };
 pub use known::Known;
 pub use ledger::{Cause, Ledger, Loss, Spared};

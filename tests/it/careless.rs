@@ -199,3 +199,47 @@ fn withheld_points_are_not_told_by_an_export() {
         program.run(&comments).ends_with(code);
     }
 }
+
+#[test]
+fn several_marks_files_are_one_unless_they_contradict_each_other() {
+    let program = class();
+    program.write("viva.csv", "student_id,item,points\nEE-1,viva,30\nEE-2,viva,20\n");
+    program.write("marks.yaml", "students:\n  EE-1: {viva: 30, observed: {safety: 4}}\n");
+    let both = [
+        "grade",
+        "in",
+        "--out",
+        "out",
+        "--marks",
+        "viva.csv",
+        "--marks",
+        "marks.yaml",
+        "--marks",
+        "viva.csv",
+    ];
+    program.run(&both).ends_with(0);
+    let gradebook = fs::read_to_string(program.path("out/gradebook.csv")).unwrap();
+    let column = |name: &str, row: usize| {
+        let lines: Vec<Vec<&str>> = gradebook.lines().map(|line| line.split(',').collect()).collect();
+        let place = lines[0].iter().position(|column| column.starts_with(name)).unwrap();
+        lines[row][place].to_owned()
+    };
+    assert_eq!(
+        [column("cover.viva", 1), column("cover.viva", 2), column("observed.safety", 1)],
+        ["30", "20", "4"]
+    );
+    program.write("marks.yaml", "students:\n  ee 1: {viva: 25}\n");
+    let told = program.run(&both).ends_with(1).err;
+    assert!(
+        told.starts_with("error[marks.twice]: `viva` of `ee 1` is 30 and 25.\n --> marks.yaml:2:10"),
+        "{told}"
+    );
+    assert!(told.contains("It is said first in `viva.csv`, line 2. Keep one."), "{told}");
+    // What was forgotten is said.
+    let told = program.run(&["grade", "in", "--out", "out"]).ends_with(0).err;
+    assert_eq!(
+        told,
+        "warning: the last run into `out` had a marks file: what a person gave is not in this one\n"
+    );
+    assert_eq!(program.run(&["grade", "in", "--out", "out"]).ends_with(0).err, "");
+}

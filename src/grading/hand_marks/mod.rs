@@ -3,6 +3,7 @@
 mod adjustment;
 mod allowed;
 mod decision;
+mod merge;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -10,6 +11,7 @@ mod yaml;
 
 pub use adjustment::{Adjustment, LateCost, LateRule};
 pub use decision::{Given, NO_ANSWER, Override};
+pub use merge::Contradiction;
 
 use crate::lab::{LabDefinition, Points, folded_id};
 use crate::names::nearest;
@@ -85,12 +87,30 @@ pub struct HandMarksFile {
     /// What holds for whoever is not listed.
     others: HandMarks,
     /// Where the decisions for groups stand: (criterion, group).
-    groups: BTreeMap<(String, String), Span>,
+    groups: BTreeMap<(String, String), Said>,
     /// Whose an answer file is, by its name, and where that is said.
-    files: BTreeMap<String, (Vec<String>, Span)>,
+    files: BTreeMap<String, (Vec<String>, Said)>,
     /// Of a student's several files the name of the one that counts, by the folded id, and where that is said.
-    counts: BTreeMap<String, (String, Span)>,
+    counts: BTreeMap<String, (String, Said)>,
+    /// Where everything else is said.
+    said: BTreeMap<What, Said>,
 }
+
+/// Where something is said: in which marks file, counted from 0 as they were merged, and where in it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Said {
+    pub file: usize,
+    pub span: Span,
+}
+
+impl From<Span> for Said {
+    fn from(span: Span) -> Self {
+        Self { file: 0, span }
+    }
+}
+
+/// What is said: folded student id (empty for the class), and criterion, box, row (`observed.<id>`) or `late`.
+type What = (String, String);
 
 impl HandMarksFile {
     /// Reads a marks file: what could be read, and a finding for everything that could not or that does not fit `lab`.
@@ -121,13 +141,17 @@ impl HandMarksFile {
             true => table::read(source, allowed),
             false => yaml::read(source, allowed),
         };
-        // Decisions for the class hold for everyone, listed or not.
-        let (alike, late_rule) = (Arc::clone(&file.others.alike), file.others.late_rule.clone());
-        for (_, marks) in file.students.values_mut() {
+        file.share();
+        (file, findings)
+    }
+
+    /// Decisions for the class hold for everyone, listed or not.
+    fn share(&mut self) {
+        let (alike, late_rule) = (Arc::clone(&self.others.alike), self.others.late_rule.clone());
+        for (_, marks) in self.students.values_mut() {
             marks.alike = Arc::clone(&alike);
             marks.late_rule.clone_from(&late_rule);
         }
-        (file, findings)
     }
 
     /// However the id is spelled.
@@ -155,31 +179,32 @@ impl HandMarksFile {
         self.counts.get(&folded_id(id)).map(|(file, _)| file.as_str())
     }
 
-    /// A warning for each decision about a group that is not among `groups`, the (criterion, group) of a class's answers.
-    pub fn decisions_without_answers(&self, groups: &BTreeSet<(String, String)>) -> Vec<Finding> {
+    /// A warning, with the marks file it is in, for each decision about a group that is not among `groups`, the (criterion, group) of a class's answers.
+    pub fn decisions_without_answers(&self, groups: &BTreeSet<(String, String)>) -> Vec<(usize, Finding)> {
         let nobody = self.groups.iter().filter(|(group, _)| !groups.contains(*group));
-        let finding = |((criterion, group), span): (&(String, String), &Span)| {
+        let finding = |((criterion, group), said): (&(String, String), &Said)| {
             let message =
                 format!("No answer of this class is in the group {} of `{criterion}`.", quoted(group));
-            Finding::warning("marks.alike_nobody", message)
+            let finding = Finding::warning("marks.alike_nobody", message)
                 .with_help("The class page lists the groups; they change with the answers and with the lab's phrases.")
-                .at(*span)
+                .at(said.span);
+            (said.file, finding)
         };
         nobody.map(finding).collect()
     }
 
-    /// A warning for each name of an answer file that is not among `names`.
-    pub fn files_not_there(&self, names: &BTreeSet<&str>) -> Vec<Finding> {
-        let counts = self.counts.values().map(|(name, span)| (name.as_str(), *span));
-        let said = self.files.iter().map(|(name, (_, span))| (name.as_str(), *span)).chain(counts);
+    /// A warning, with the marks file it is in, for each name of an answer file that is not among `names`.
+    pub fn files_not_there(&self, names: &BTreeSet<&str>) -> Vec<(usize, Finding)> {
+        let counts = self.counts.values().map(|(name, said)| (name.as_str(), *said));
+        let said = self.files.iter().map(|(name, (_, said))| (name.as_str(), *said)).chain(counts);
         let absent = said.filter(|(name, _)| !names.contains(name));
-        let finding = |(name, span): (&str, Span)| {
+        let finding = |(name, said): (&str, Said)| {
             let message = format!("No answer file of this class is called {}.", quoted(name));
             let help = match nearest(name, names.iter().copied()) {
                 Some(near) => format!("Did you mean {}?", quoted(near)),
                 None => "Give the name as the class page and results.jsonl have it.".to_owned(),
             };
-            Finding::warning("marks.no_such_file", message).with_help(help).at(span)
+            (said.file, Finding::warning("marks.no_such_file", message).with_help(help).at(said.span))
         };
         absent.map(finding).collect()
     }

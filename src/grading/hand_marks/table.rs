@@ -152,6 +152,10 @@ impl Reader<'_> {
         if said && item != "adjustment" && self.is_twice(row) {
             self.findings.twice(*span, &format!("{} is decided", quoted(item)));
         }
+        if given && (student.is_empty() || group.is_empty()) {
+            let who = if student.is_empty() { String::new() } else { identity(student) };
+            file.said.insert((who, item.clone()), (*span).into());
+        }
         match (item.as_str(), student.is_empty(), group.is_empty()) {
             ("late", true, _) => {
                 if given {
@@ -160,7 +164,7 @@ impl Reader<'_> {
             }
             (_, true, false) => {
                 let Some(most) = self.criterion(item, *span) else { return };
-                file.groups.insert((item.clone(), group.clone()), *span);
+                file.groups.insert((item.clone(), group.clone()), (*span).into());
                 let name = format!("{item}/{group}");
                 if let Some(given) = self.decision(row, (Points::ZERO, most), &name) {
                     alike.entry(item.clone()).or_default().entry(group.clone()).or_default().push(given);
@@ -173,13 +177,14 @@ impl Reader<'_> {
             }
             ("is", false, _) => {
                 if !answer.is_empty() {
-                    let (students, _) = file.files.entry(answer.clone()).or_insert((Vec::new(), *span));
+                    let (students, _) =
+                        file.files.entry(answer.clone()).or_insert((Vec::new(), (*span).into()));
                     students.push(student.clone());
                 }
             }
             ("counts", false, _) => {
                 if !answer.is_empty() {
-                    file.counts.insert(folded_id(student), (answer.clone(), *span));
+                    file.counts.insert(folded_id(student), (answer.clone(), (*span).into()));
                 }
             }
             _ => self.of_student(row, file),

@@ -157,7 +157,8 @@ fn what_settles_and_what_adjusts() {
     let decided = &file.alike()["expect_hanging.settles"]["text-1"][0];
     assert_eq!(decided.answers, ["3f2a91c05be7d410", "none"]);
     let names = ["c.yaml", "d.yaml"].into();
-    let absent: Vec<_> = file.files_not_there(&names).into_iter().map(|finding| finding.message).collect();
+    let absent: Vec<_> =
+        file.files_not_there(&names).into_iter().map(|(_, finding)| finding.message).collect();
     assert_eq!(absent, ["No answer file of this class is called `a/b.yaml`."; 2]);
 }
 
@@ -298,4 +299,87 @@ fn of_several_decisions_the_one_for_this_answer_counts() {
     check("battery.nonlinearity.class", "4", ("held", 75));
     check("expect_hanging.settles", "1", ("applies", 75));
     check("expect_hanging.settles", "4", ("held", 75));
+}
+
+#[track_caller]
+fn merge(files: &[(&str, &str)]) -> (HandMarksFile, Vec<String>) {
+    let read = files.iter().map(|(name, text)| {
+        let (file, findings) = parse_as(name, text);
+        assert!(findings.is_empty(), "{findings:?}");
+        file
+    });
+    let (file, found) = HandMarksFile::merged(read.collect());
+    let place = |said: &Said| {
+        let (name, text) = files[said.file];
+        let position = SourceText::new(name, text).position(said.span.start);
+        format!("{name}:{}:{}", position.line, position.column)
+    };
+    (
+        file,
+        found
+            .iter()
+            .map(|one| format!("{} {} {}", one.what, place(&one.places[0]), place(&one.places[1])))
+            .collect(),
+    )
+}
+
+const TABLE: &str = "student_id,item,group,points,reason,answer\n";
+
+#[test]
+fn marks_files_are_put_together() {
+    let yaml = "late: {points: 5}\nfiles: {a.yaml: {is: EE-9}}\nstudents:\n  EE-1:\n    viva: 30\n    adjustments: [{points: -5, reason: untidy}]\n    items: \
+                {battery.nonlinearity.class: {points: 1, reason: x, answer: 1111111111111111}}\n  EE-2: {observed: {safety: 3}}\n";
+    let table = format!(
+        "{TABLE}ee1,viva,,30,,\nEE-1,observed.safety,,4,,\nEE-1,adjustment,,-5,untidy,\nEE-1,adjustment,,2,helped,\n\
+         EE-1,battery.nonlinearity.class,,0,y,#2222222222222222\n,late,,5,,\n,expect_hanging.settles,text-1,1,x,\nEE-3,viva,,1,,\n"
+    );
+    let (file, found) = merge(&[("a.yaml", yaml), ("b.csv", &table), ("again.yaml", yaml)]);
+    assert_eq!(found, [""; 0]);
+    assert_eq!(file.student_ids().collect::<Vec<_>>(), ["EE-1", "EE-2", "EE-3"]);
+    let one = file.marks_for("EE-1");
+    assert_eq!((one.cover["viva"], one.observed["safety"]), (Points(3000), Points(400)));
+    let by: Vec<_> = one.adjustments.iter().map(|one| one.points).collect();
+    assert_eq!(by, [Some(Points(-500)), Some(Points(200))]);
+    assert_eq!(one.items["battery.nonlinearity.class"].len(), 2);
+    assert!(file.marks_for("EE-2").alike["expect_hanging.settles"].contains_key("text-1"));
+    assert!(file.marks_for("EE-3").late_rule.is_some() && file.whose("a.yaml").is_some());
+    let absent = file.decisions_without_answers(&BTreeSet::new());
+    assert_eq!(absent.iter().map(|(file, _)| *file).collect::<Vec<_>>(), [1]);
+}
+
+#[test]
+fn marks_files_that_contradict_each_other_are_refused() {
+    for (one, two, want) in [
+        (
+            "students: {EE-1: {viva: 30}}",
+            "ee 1,viva,,20,,",
+            "`viva` of `ee 1` is 30 and 20 a.yaml:1:19 b.csv:2:1",
+        ),
+        (
+            "students: {A: {observed: {safety: 3}}}",
+            "A,observed.safety,,4,,",
+            "`observed.safety` of `A` is 3 and 4 a.yaml:1:27 b.csv:2:1",
+        ),
+        (
+            "students: {A: {items: {battery.nonlinearity.class: {points: 1, reason: x}}}}",
+            "A,battery.nonlinearity.class,,1,y,#1111111111111111",
+            "`battery.nonlinearity.class` of `A` is 1 (x) and 1 (y) a.yaml:1:24 b.csv:2:1",
+        ),
+        (
+            "alike: {expect_hanging.settles: {text-1: {points: 1, reason: x}}}",
+            ",expect_hanging.settles,text-1,0,x,",
+            "The group `text-1` of `expect_hanging.settles` is given 1 (x) and 0 (x) a.yaml:1:34 b.csv:2:1",
+        ),
+        ("students: {A: {late: true}}", "A,late,,no,,", "`A` is late and not late a.yaml:1:16 b.csv:2:1"),
+        ("late: {points: 5}", ",late,,10 %,,", "What it costs to hand in late differs a.yaml:1:1 b.csv:2:1"),
+        ("files: {x.yaml: {is: A}}", "B,is,,,,x.yaml", "`x.yaml` is of `A` and of `B` a.yaml:1:9 b.csv:2:1"),
+        (
+            "students: {A: {counts: x}}",
+            "A,counts,,,,y",
+            "Of the files of one student `x` counts and `y` a.yaml:1:24 b.csv:2:1",
+        ),
+    ] {
+        let (_, found) = merge(&[("a.yaml", one), ("b.csv", &format!("{TABLE}{two}\n"))]);
+        assert_eq!(found, [want], "{one} {two}");
+    }
 }

@@ -34,7 +34,10 @@ impl Reader<'_> {
         {
             match key.as_str() {
                 "lab" => self.lab(value),
-                "late" => file.others.late_rule = self.late_rule(value),
+                "late" => {
+                    file.others.late_rule = self.late_rule(value);
+                    file.said.insert((String::new(), "late".to_owned()), (*span).into());
+                }
                 "files" => self.files(value, &mut file),
                 "students" => {
                     for (id, span, marks) in
@@ -71,7 +74,7 @@ impl Reader<'_> {
             for (group, span, value) in self.mapping(groups, wanted) {
                 let name = format!("{criterion}/{group}");
                 let Some(given) = self.item(value, *span, most, &name) else { continue };
-                if file.groups.insert((criterion.clone(), group.clone()), *span).is_some() {
+                if file.groups.insert((criterion.clone(), group.clone()), (*span).into()).is_some() {
                     let what = format!("The group {} of `{criterion}` is decided", quoted(group));
                     self.findings.twice(*span, &what);
                 }
@@ -151,7 +154,7 @@ impl Reader<'_> {
                         Some("Write `{is: EE-001}`."),
                     );
                 } else {
-                    file.files.insert(name.clone(), (students, *span));
+                    file.files.insert(name.clone(), (students, (*span).into()));
                 }
             }
         }
@@ -159,6 +162,7 @@ impl Reader<'_> {
 
     fn student(&mut self, id: &str, node: &Node, file: &mut HandMarksFile) -> HandMarks {
         let mut marks = HandMarks::default();
+        let who = identity(id);
         for (key, span, value) in
             self.mapping(node, "A student's marks are keys such as `observed` and `items`.")
         {
@@ -167,6 +171,7 @@ impl Reader<'_> {
                 (_, Some(most)) => {
                     if let Some(points) = self.points(value, (Points::ZERO, most), key) {
                         marks.cover.insert(key.clone(), points);
+                        file.said.insert((who.clone(), key.clone()), (*span).into());
                     }
                 }
                 ("observed", _) => {
@@ -180,6 +185,7 @@ impl Reader<'_> {
                         };
                         if let Some(points) = self.points(value, (Points::ZERO, most), row) {
                             marks.observed.insert(row.clone(), points);
+                            file.said.insert((who.clone(), format!("observed.{row}")), (*span).into());
                         }
                     }
                 }
@@ -194,23 +200,27 @@ impl Reader<'_> {
                         };
                         if let Some(given) = self.item(value, *span, most, item) {
                             marks.items.insert(item.clone(), vec![given]);
+                            file.said.insert((who.clone(), item.clone()), (*span).into());
                         }
                     }
                 }
                 ("adjustments", _) => marks.adjustments = self.adjustments(value),
-                ("late", _) => match (&value.value, value.as_scalar().map(str::to_lowercase).as_deref()) {
-                    (Value::Null, _) => {}
-                    (_, Some("true" | "yes")) => marks.late = Some(true),
-                    (_, Some("false" | "no")) => marks.late = Some(false),
-                    _ => {
-                        let message = format!("Whether {} is late is `true` or `false`.", quoted(id));
-                        self.findings.report(Some(value.span), "marks.shape", message, None);
+                ("late", _) => {
+                    file.said.insert((who.clone(), key.clone()), (*span).into());
+                    match (&value.value, value.as_scalar().map(str::to_lowercase).as_deref()) {
+                        (Value::Null, _) => {}
+                        (_, Some("true" | "yes")) => marks.late = Some(true),
+                        (_, Some("false" | "no")) => marks.late = Some(false),
+                        _ => {
+                            let message = format!("Whether {} is late is `true` or `false`.", quoted(id));
+                            self.findings.report(Some(value.span), "marks.shape", message, None);
+                        }
                     }
-                },
+                }
                 ("counts", _) => match &value.value {
                     Value::Null => {}
                     Value::Scalar(name) => {
-                        file.counts.insert(folded_id(id), (name.trim().to_owned(), value.span));
+                        file.counts.insert(folded_id(id), (name.trim().to_owned(), value.span.into()));
                     }
                     _ => {
                         let message = "Which file counts is said by its name.".to_owned();
