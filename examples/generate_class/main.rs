@@ -19,6 +19,20 @@ use polemark::reference::Reference;
 use polemark::source::SourceText;
 use std::path::PathBuf;
 
+const HELP: &str = "\
+Writes a class of different submissions to a lab, and roster.csv beside them; the same seed gives the same bytes.
+
+  cargo run --release --example generate_class -- --students 300 --form moodle --out class
+  cargo run --release -- grade class/submissions.zip --roster class/roster.csv --out out
+
+  --out DIR       where to
+  --students N    how many [default: 100]
+  --seed N        [default: 1]
+  --lab LAB       embedded lab or path of a lab file [default: ee361-lab3]
+  --form FORM     folder, files, moodle, moodle-flat, moodle-hidden, canvas, canvas-hidden or groups; all but the first two are
+                  zip archives [default: folder]
+";
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (mut students, mut seed, mut form, mut out) = (100, 1, Form::Folder, None);
     let mut lab = lab::DEFAULT.to_owned();
@@ -26,6 +40,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     while let Some(argument) = arguments.next() {
         let mut value = || arguments.next().ok_or_else(|| format!("{argument} needs a value"));
         match argument.as_str() {
+            "--help" | "-h" => {
+                print!("{HELP}");
+                return Ok(());
+            }
             "--students" => students = value()?.parse()?,
             "--seed" => seed = value()?.parse()?,
             "--form" => form = named(&value()?)?,

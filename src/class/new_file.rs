@@ -32,6 +32,15 @@ impl NewFile {
         self.finish()
     }
 
+    /// [`Self::finish`] where no file has the name yet; an error of the kind `AlreadyExists` where one has.
+    pub fn finish_new(self) -> Result<(), ClassError> {
+        let Self { path, file } = self;
+        match file.persist_noclobber(&path) {
+            Ok(_) => Ok(()),
+            Err(failed) => Err(ClassError::Write { path, error: failed.error }),
+        }
+    }
+
     pub fn finish(self) -> Result<(), ClassError> {
         let Self { path, file } = self;
         match file.persist(&path) {

@@ -1,7 +1,6 @@
 use super::outcome::{Failure, write_output};
-use crate::class::{MarksStub, Results, appended};
+use crate::class::{ClassError, MarksStub, NewFile, Results, appended};
 use crate::source::sanitize;
-use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -39,19 +38,28 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         };
         let (bytes, added) = appended(&before, &stub)
             .map_err(|error| written(io::Error::new(io::ErrorKind::InvalidData, error.to_string())))?;
-        // What is there is not touched: only what comes after it is written.
+        // What is there is not touched: only what comes after it is written, all of it or nothing.
         if let Some(more) = bytes.get(before.len()..).filter(|more| !more.is_empty() && added > 0) {
-            let file = std::fs::OpenOptions::new().create(true).append(true).open(path);
-            file.and_then(|mut file| file.write_all(more)).map_err(written)?;
+            let mut file =
+                std::fs::OpenOptions::new().create(true).append(true).open(path).map_err(written)?;
+            if let Err(error) = file.write_all(more) {
+                let _ = file.set_len(before.len() as u64);
+                return Err(written(error));
+            }
         }
         eprintln!("{}: {added} rows added; {}", sanitize(&path.to_string_lossy()), stub.in_short());
     } else {
-        let new = File::create_new(path);
-        new.and_then(|mut file| file.write_all(stub.to_yaml().as_bytes())).map_err(|error| {
-            match error.kind() {
-                io::ErrorKind::AlreadyExists => Failure::Exists { path: path.clone() },
-                _ => written(error),
+        if path.exists() {
+            return Err(Failure::Exists { path: path.clone() });
+        }
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let mut new = NewFile::create(path.clone(), folder)?;
+        new.file.as_file_mut().write_all(stub.to_yaml().as_bytes()).map_err(written)?;
+        new.finish_new().map_err(|error| match error {
+            ClassError::Write { error, .. } if error.kind() == io::ErrorKind::AlreadyExists => {
+                Failure::Exists { path: path.clone() }
             }
+            other => other.into(),
         })?;
         eprintln!("{}: {}", sanitize(&path.to_string_lossy()), stub.in_short());
     }

@@ -243,3 +243,35 @@ fn several_marks_files_are_one_unless_they_contradict_each_other() {
     );
     assert_eq!(program.run(&["grade", "in", "--out", "out"]).ends_with(0).err, "");
 }
+
+#[test]
+fn an_archive_that_is_named_twice_is_read_once() {
+    let program = Program::new();
+    let file = fs::File::create(program.path("a.zip")).unwrap();
+    let mut zip = zip::ZipWriter::new(file);
+    zip.start_file("Jane Doe_1_assignsubmission_file/a.yaml", zip::write::SimpleFileOptions::default())
+        .unwrap();
+    std::io::Write::write_all(&mut zip, answers("EE-1").as_bytes()).unwrap();
+    zip.finish().unwrap();
+    let told = program.run(&["grade", "a.zip", "./a.zip", "--out", "out"]).ends_with(0).out;
+    assert!(told.starts_with("1 submission marked") && !told.contains("does not count"), "{told}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_stub_is_whole_or_not_there() {
+    let program = class();
+    program.run(&["grade", "in", "--out", "out"]).ends_with(0);
+    let polemark = env!("CARGO_BIN_EXE_polemark");
+    let status = std::process::Command::new("sh")
+        .args(["-c", &format!("ulimit -f 1; exec '{polemark}' marks out --out marks.yaml")])
+        .current_dir(program.folder.path())
+        .stderr(std::process::Stdio::null())
+        .status()
+        .unwrap();
+    assert!(!status.success() && !program.path("marks.yaml").exists());
+    program.run(&["marks", "out", "--out", "marks.yaml"]).ends_with(0);
+    assert!(
+        program.run(&["marks", "out", "--out", "marks.yaml"]).ends_with(2).err.contains("is there already")
+    );
+}

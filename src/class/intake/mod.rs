@@ -86,12 +86,15 @@ pub fn find_answer_files(
     paths: &[PathBuf],
     leave_out: &dyn Fn(&Path) -> bool,
 ) -> Result<Intake, IntakeError> {
-    let mut seen = BTreeSet::new();
+    let (mut seen, mut archives) = (BTreeSet::new(), BTreeSet::new());
     let mut found = Vec::new();
     for (source, path) in paths.iter().enumerate() {
         let files = if path.is_dir() {
             in_folder(path, source)?
         } else if has_ending(&path.to_string_lossy(), &[".zip"]) {
+            if path.canonicalize().is_ok_and(|place| !archives.insert(place)) {
+                continue;
+            }
             in_archive(path, source)?
         } else {
             vec![alone(path, source)]

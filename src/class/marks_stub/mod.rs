@@ -125,7 +125,10 @@ impl MarksStub {
             // What else is asked depends on whose it is.
             let mut one = OneStudent {
                 id: student.id.clone(),
-                name: student.name.clone(),
+                name: match (student.name.as_str(), &student.roster) {
+                    ("", Some(row)) => row.name.clone(),
+                    (name, _) => name.to_owned(),
+                },
                 which_counts,
                 ..OneStudent::default()
             };
