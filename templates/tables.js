@@ -1,12 +1,15 @@
 "use strict";
 // Sorts and filters the tables of this page. It reads what is shown, keeps nothing, and talks to nobody.
+const order = new Intl.Collator("en", { numeric: true });
+const amount = (words) => parseFloat(words.replace(/\u2212/g, "-"));
+// "muller" finds "Müller".
+const plain = (words) => words.normalize("NFKD").replace(/\p{M}/gu, "").toLowerCase();
 for (const table of document.querySelectorAll("table.sortable")) {
   const body = table.tBodies[0];
   const rows = Array.from(body.rows);
-  const text = (row, column) => row.cells[column].textContent.trim();
-  const amount = (words) => parseFloat(words.replace(/\u2212/g, "-"));
   const heads = Array.from(table.tHead.rows[0].cells);
   heads.forEach((head, column) => {
+    if (head.classList.contains("as-is")) return;
     const button = document.createElement("button");
     button.type = "button";
     button.append(...head.childNodes);
@@ -15,39 +18,42 @@ for (const table of document.querySelectorAll("table.sortable")) {
       const before = head.getAttribute("aria-sort");
       const now = before === "ascending" ? "descending" : before === "descending" ? null : "ascending";
       for (const other of heads) other.removeAttribute("aria-sort");
-      const sorted = rows.slice();
-      if (now) {
-        head.setAttribute("aria-sort", now);
-        const numeric = head.classList.contains("num");
-        const sign = now === "ascending" ? 1 : -1;
-        sorted.sort((one, two) => {
-          const [a, b] = [text(one, column), text(two, column)];
-          if (!numeric) return sign * a.localeCompare(b, "en", { numeric: true });
-          const [x, y] = [amount(a), amount(b)];
-          // What is no number comes last, whichever way.
-          if (x !== x || y !== y) return (x !== x) - (y !== y);
-          return sign * (x - y);
-        });
-      }
-      body.append(...sorted);
+      if (!now) return body.append(...rows);
+      head.setAttribute("aria-sort", now);
+      const sign = now === "ascending" ? 1 : -1;
+      const numeric = head.classList.contains("num");
+      const keys = rows.map((row) => {
+        const words = row.cells[column].textContent.trim();
+        return { row, key: numeric ? amount(words) : words };
+      });
+      keys.sort(({ key: a }, { key: b }) => {
+        if (!numeric) return sign * order.compare(a, b);
+        // What is no number comes last, whichever way.
+        if (a !== a || b !== b) return (a !== a) - (b !== b);
+        return sign * (a - b);
+      });
+      body.append(...keys.map(({ row }) => row));
     });
   });
-  if (rows.length < 8) continue;
+  if (rows.length < 20) continue;
+  const line = document.createElement("p");
   const label = document.createElement("label");
   const input = document.createElement("input");
   const count = document.createElement("output");
   input.type = "search";
-  label.className = "filter";
-  label.append("Only rows with ", input, " ", count);
-  const words = rows.map((row) => row.textContent.toLowerCase());
+  line.className = "filter";
+  label.append("Only rows with ", input);
+  line.append(label, " ", count);
+  let words;
   input.addEventListener("input", () => {
-    const wanted = input.value.toLowerCase().split(/\s+/).filter(Boolean);
+    words ??= rows.map((row) => plain(row.textContent));
+    const wanted = plain(input.value).split(/\s+/).filter(Boolean);
     let shown = 0;
     rows.forEach((row, i) => {
       row.hidden = !wanted.every((word) => words[i].includes(word));
       shown += row.hidden ? 0 : 1;
     });
-    count.textContent = wanted.length ? shown + " of " + rows.length : "";
+    count.textContent = wanted.length ? shown + " of " + rows.length + " rows" : "";
   });
-  (table.closest(".scroll") || table).before(label);
+  (table.closest(".scroll") || table).before(line);
 }

@@ -3,7 +3,7 @@ use super::intake::Aside;
 use super::outcome::Outcome;
 use super::record::{ItemRecord, Record, Status};
 use crate::english::listed;
-use crate::lab::{LabDefinition, folded_id};
+use crate::lab::{LabDefinition, Points, folded_id};
 use crate::report::{ClassRow, ClassSummary, IntakeEntry, IntakeKind, People, ReviewEntry, item_anchor};
 use crate::submission::Student;
 use std::collections::{BTreeMap, BTreeSet};
@@ -23,6 +23,10 @@ pub struct Statistics {
     classes: Classes,
     outcomes: Attainments,
     answers: AnswersAlike,
+    /// How many have each mark, in hundredths.
+    marks: BTreeMap<i64, u64>,
+    /// (title, how many wait for it) of each box of the cover sheet, by place.
+    boxes: Vec<(String, u64)>,
     /// Of the record before.
     last_file: String,
     /// Folded, as ids are compared.
@@ -47,6 +51,8 @@ impl Statistics {
             classes: Classes::new(lab),
             outcomes: Attainments::new(lab),
             answers: AnswersAlike::new(lab),
+            marks: BTreeMap::new(),
+            boxes: lab.cover.rows.iter().map(|row| (row.title.clone(), 0)).collect(),
             last_file: String::new(),
             student_ids: BTreeSet::new(),
             groups: BTreeSet::new(),
@@ -104,6 +110,12 @@ impl Statistics {
         self.mistakes.add(record, &names(record), record.full_report());
         self.classes.add(record);
         self.outcomes.add(record);
+        if let Some(mark) = record.mark {
+            *self.marks.entry(mark.earned.0).or_default() += 1;
+        }
+        for ((_, waiting), given) in self.boxes.iter_mut().zip(&record.cover) {
+            *waiting += u64::from(given.earned.is_none());
+        }
         // Members of a group with reports of their own have the same answers.
         if self.last_file != record.file {
             self.answers.add(record, self.rows.len());
@@ -188,6 +200,8 @@ impl Statistics {
         ClassSummary {
             counted: self.items.count(),
             totals: self.items.totals(),
+            marks: self.marks.iter().map(|(mark, n)| (Points(*mark), *n)).collect(),
+            boxes_waiting: self.boxes.into_iter().filter(|(_, waiting)| *waiting > 0).collect(),
             questions: self.items.questions(),
             criteria: self.items.criteria(),
             mistakes,
@@ -231,6 +245,7 @@ fn class_row(record: &Record) -> ClassRow {
         findings: record.findings.len(),
         to_review: record.to_review().count(),
         cover_total: record.cover_total,
+        adjustments: record.adjustments.iter().map(|one| (one.points, one.reason.clone())).collect(),
         mark: record.mark.as_ref().map(|mark| mark.earned),
         readable: record.readable,
         missing: record.status == Status::Missing,

@@ -1,11 +1,10 @@
-//! What a class did, as views: how hard each criterion was, which mistakes were made, how far outcomes are reached, who is near
-//! a boundary, who shares wrong answers.
+//! What a class did, as views: how hard each criterion was, which mistakes were made, how far outcomes are reached, who
+//! shares wrong answers.
 
 use super::class_summary::{
-    AnswersShared, Attainment, ClassRow, ClassSummary, Confusion, ItemStatistics, MistakeMade, People,
+    AnswersShared, Attainment, ClassSummary, Confusion, ItemStatistics, MistakeMade, People,
 };
-use super::figure::Figure;
-use super::numbers::{counted, number};
+use super::numbers::counted;
 use super::prose;
 use super::view::BarView;
 use crate::algebra::to_f64;
@@ -13,13 +12,6 @@ use crate::lab::{LabDefinition, Points};
 use crate::source::sanitize;
 use serde::Serialize;
 use std::collections::BTreeMap;
-
-/// A row behind a bar of a plot.
-#[derive(Serialize)]
-pub struct CountView {
-    range: String,
-    count: String,
-}
 
 #[derive(Serialize)]
 pub struct ItemView {
@@ -57,6 +49,8 @@ pub struct MistakeView {
 #[derive(Serialize)]
 pub struct PeopleView {
     amount: String,
+    /// So few that they are named at once.
+    few: bool,
     first: Vec<PersonView>,
     more: usize,
 }
@@ -92,28 +86,6 @@ pub struct AttainmentView {
 }
 
 #[derive(Serialize)]
-pub struct BorderlineView {
-    /// `1.8 points (2 % of 90)`
-    width: String,
-    rows: Vec<BorderlineRow>,
-    /// Near a boundary, and not listed.
-    more: usize,
-    /// Marks that cannot be held against a boundary yet.
-    waiting: usize,
-}
-
-#[derive(Serialize)]
-pub struct BorderlineRow {
-    name: String,
-    link: String,
-    mark: String,
-    distance: String,
-    /// `below A (85)`
-    side: String,
-    provisional: String,
-}
-
-#[derive(Serialize)]
 pub struct SharedView {
     people: PeopleView,
     answers: Vec<SharedAnswerView>,
@@ -127,10 +99,6 @@ pub struct SharedAnswerView {
     among: String,
 }
 
-/// A share in percent of the whole that counts as near a boundary.
-const NEAR_PERCENT: i64 = 2;
-/// Rows of the borderline list.
-const MOST_NEAR: usize = 200;
 /// Groups who share answers that are listed.
 const MOST_SHARED: usize = 100;
 
@@ -152,15 +120,6 @@ pub fn counted_words(summary: &ClassSummary) -> String {
         words += " Marks to be confirmed, and what could not be judged, count as they stand.";
     }
     words
-}
-
-/// The numbers of the bars.
-pub fn bars(figure: &Figure) -> Vec<CountView> {
-    let bars = figure.bars.iter().map(|bar| CountView {
-        range: format!("{} to below {}", number(bar.from, 4), number(bar.to, 4)),
-        count: number(bar.height, 9),
-    });
-    bars.collect()
 }
 
 pub fn questions(lab: &LabDefinition, statistics: &[ItemStatistics]) -> Vec<ItemView> {
@@ -236,6 +195,9 @@ pub fn mistakes(lab: &LabDefinition, made: &[MistakeMade], counted_all: u64) -> 
     made.iter().map(view).collect()
 }
 
+/// Submissions that are named without being asked for.
+const FEW: usize = 2;
+
 fn people(people: &People) -> PeopleView {
     let first = people.first.iter().map(|one| PersonView {
         name: sanitize(&one.name.chars().take(80).collect::<String>()),
@@ -243,6 +205,7 @@ fn people(people: &People) -> PeopleView {
     });
     PeopleView {
         amount: counted(people.count, "submission"),
+        few: people.count <= FEW,
         first: first.collect(),
         more: people.count.saturating_sub(people.first.len()),
     }
@@ -278,53 +241,6 @@ pub fn outcomes(outcomes: &[Attainment]) -> Vec<AttainmentView> {
         },
     };
     outcomes.iter().map(view).collect()
-}
-
-/// Marks near the boundary of a grade, the nearest first; `None` where the lab states no grades.
-pub fn borderline(lab: &LabDefinition, rows: &[ClassRow]) -> Option<BorderlineView> {
-    if lab.grades.is_empty() {
-        return None;
-    }
-    let total = lab.cover.total;
-    let width = Points(total.0 * NEAR_PERCENT / 100);
-    let here = rows.iter().filter(|row| !row.missing);
-    let near = here.clone().filter_map(|row| {
-        let mark = row.mark?;
-        let distance = |from: Points| Points((mark.0 - from.0).abs());
-        let nearest = lab.grades.iter().min_by_key(|grade| (distance(grade.from), mark < grade.from))?;
-        let distance = distance(nearest.from);
-        (distance <= width).then(|| {
-            let side = if mark < nearest.from { "below" } else { "above" };
-            let side = if distance == Points::ZERO { "at" } else { side };
-            let side = format!("{side} {} ({})", nearest.name, nearest.from);
-            (distance, mark, side, row)
-        })
-    });
-    let mut near: Vec<_> = near.collect();
-    // Stable: those as near stay in the order of the class.
-    near.sort_by_key(|(distance, ..)| *distance);
-    let more = near.len().saturating_sub(MOST_NEAR);
-    let view = |(distance, mark, side, row): (Points, Points, String, &ClassRow)| BorderlineRow {
-        name: names(row),
-        link: row.report.clone(),
-        mark: mark.to_string(),
-        distance: distance.to_string(),
-        side,
-        provisional: row.provisional.to_string(),
-    };
-    Some(BorderlineView {
-        width: format!("{} ({NEAR_PERCENT}\u{a0}% of {total})", counted(width, "point")),
-        rows: near.into_iter().take(MOST_NEAR).map(view).collect(),
-        more,
-        waiting: here.filter(|row| row.mark.is_none()).count(),
-    })
-}
-
-/// Names of the students, ids where there are none.
-fn names(row: &ClassRow) -> String {
-    let names = row.students.iter().map(|one| if one.name.trim().is_empty() { &one.id } else { &one.name });
-    let names = names.map(|name| name.chars().take(80).collect::<String>());
-    sanitize(&names.collect::<Vec<_>>().join(", "))
 }
 
 pub fn shared(groups: &[AnswersShared]) -> Vec<SharedView> {

@@ -1,16 +1,12 @@
 //! The class page as a view: distribution, statistics, who needs review, links to every report.
 
-use super::class_analysis::{
-    self, AttainmentView, BorderlineView, ConfusionView, CountView, ItemView, MistakeView, SharedView,
-};
+use super::class_analysis::{self, AttainmentView, ConfusionView, ItemView, MistakeView, SharedView};
+use super::class_marks::{self, AdjustmentsView, BorderlineView, GradeView, SpreadView};
 use super::class_summary::{ClassRow, ClassSummary, IntakeEntry, IntakeKind, ReviewEntry};
-use super::figures::{Middle, distribution};
 use super::kit::ReportKit;
-use super::numbers::{counted, number};
-use super::pictures::draw;
+use super::numbers::counted;
 use super::prose;
-use super::view::{FigureView, provisional_words};
-use crate::lab::Points;
+use super::view::provisional_words;
 use crate::source::sanitize;
 use base64::Engine as _;
 use serde::Serialize;
@@ -32,9 +28,10 @@ pub struct ClassPage {
     facts: Vec<(&'static str, String)>,
     /// What the statistics are of.
     counted_words: String,
-    plots: Vec<FigureView>,
-    /// The numbers behind the plot.
-    totals: Vec<CountView>,
+    /// What the marks are, and what they wait for.
+    marks_words: String,
+    spreads: Vec<SpreadView>,
+    grades: Vec<GradeView>,
     questions: Vec<ItemView>,
     criteria: Vec<ItemView>,
     mistakes: Vec<MistakeView>,
@@ -50,6 +47,10 @@ pub struct ClassPage {
     alike_html: String,
     /// Students have numbers of their own.
     varied: bool,
+    /// Some mark has adjustments, some submission findings, something that waits.
+    adjusted_any: bool,
+    with_findings: bool,
+    waits: bool,
     rows: Vec<RowView>,
     /// How things were handed in.
     intake: Vec<IntakeView>,
@@ -79,7 +80,7 @@ struct ReviewGroup {
     why: String,
     amount: String,
     count: usize,
-    /// Long lists start closed.
+    /// Long lists start closed, and many lists.
     open: bool,
     /// The largest first.
     groups: Vec<AlikeView>,
@@ -128,13 +129,12 @@ struct RowView {
     to_review: String,
     /// `late`, `handed nothing in`, or nothing.
     status: &'static str,
-    cover: String,
+    adjustments: AdjustmentsView,
+    mark: String,
 }
 
 pub fn page(kit: &ReportKit, summary: &ClassSummary) -> ClassPage {
     let lab = &kit.lab;
-    let possible = lab.questions.iter().map(|q| q.points).sum::<Points>();
-    let figure = distribution(&summary.totals, possible);
     let review = review(kit, summary);
     let criteria: BTreeSet<&str> = summary.review.iter().map(|entry| entry.item.as_str()).collect();
     let waiting: usize = review.iter().map(|group| group.count).sum();
@@ -144,17 +144,18 @@ pub fn page(kit: &ReportKit, summary: &ClassSummary) -> ClassPage {
         lab_title: lab.title.clone(),
         script_html: TABLES_SCRIPT,
         script_hash: script_hash(),
-        facts: facts(summary, possible),
+        facts: facts(kit, summary),
         counted_words: class_analysis::counted_words(summary),
-        plots: draw(&figure, "figure-distribution").into_iter().collect(),
-        totals: class_analysis::bars(&figure),
+        marks_words: class_marks::words(summary),
+        spreads: class_marks::spreads(lab, summary),
+        grades: class_marks::grades(lab, summary),
         questions: class_analysis::questions(lab, &summary.questions),
         criteria: class_analysis::criteria(lab, &summary.criteria),
         mistakes: class_analysis::mistakes(lab, &summary.mistakes, summary.counted),
         more_mistakes: summary.more_mistakes,
         classes: class_analysis::classes(&summary.classes),
         outcomes: class_analysis::outcomes(&summary.outcomes),
-        borderline: class_analysis::borderline(lab, &summary.rows),
+        borderline: class_marks::borderline(lab, &summary.rows),
         shared: class_analysis::shared(&summary.answers_shared),
         not_compared: summary.answers_not_compared,
         review_words: match waiting {
@@ -175,6 +176,9 @@ pub fn page(kit: &ReportKit, summary: &ClassSummary) -> ClassPage {
         },
         review,
         varied: lab.variants.is_some(),
+        adjusted_any: summary.rows.iter().any(|row| !row.adjustments.is_empty()),
+        with_findings: summary.rows.iter().any(|row| row.findings > 0 || !row.readable),
+        waits: summary.rows.iter().any(|row| row.to_review > 0),
         rows: summary.rows.iter().map(row).collect(),
         intake: intake(&summary.intake),
     }
@@ -216,7 +220,7 @@ fn intake_entry(entry: &IntakeEntry) -> IntakeEntryView {
     }
 }
 
-fn facts(summary: &ClassSummary, possible: Points) -> Vec<(&'static str, String)> {
+fn facts(kit: &ReportKit, summary: &ClassSummary) -> Vec<(&'static str, String)> {
     let handed_in = summary.rows.iter().filter(|r| !r.missing).count();
     let mut facts = vec![("Submissions", handed_in.to_string())];
     for (name, count) in [
@@ -227,13 +231,7 @@ fn facts(summary: &ClassSummary, possible: Points) -> Vec<(&'static str, String)
             facts.push((name, count.to_string()));
         }
     }
-    if let Some(middle) = Middle::of(&summary.totals) {
-        facts.push(("Median", format!("{} of {possible}", number(middle.median, 4))));
-        facts.push(("Mean", format!("{} of {possible}", number(middle.mean, 4))));
-        if let Some(deviation) = middle.deviation {
-            facts.push(("Standard deviation", number(deviation, 3)));
-        }
-    }
+    facts.extend(class_marks::facts(&kit.lab, summary));
     let unreadable = summary.rows.iter().filter(|r| !r.readable).count();
     if unreadable > 0 {
         facts.push(("Files that could not be read", unreadable.to_string()));
@@ -258,6 +256,7 @@ fn review(kit: &ReportKit, summary: &ClassSummary) -> Vec<ReviewGroup> {
     let criteria: Vec<&str> =
         kit.lab.questions.iter().flat_map(|q| &q.criteria).map(|criterion| criterion.id.as_str()).collect();
     groups.sort_by_cached_key(|(first, _)| criteria.iter().position(|id| *id == first.item));
+    let few = groups.len() <= OPEN;
     groups
         .into_iter()
         .map(|(first, entries)| {
@@ -272,7 +271,7 @@ fn review(kit: &ReportKit, summary: &ClassSummary) -> Vec<ReviewGroup> {
                 title,
                 why: sanitize(&first.why).to_string(),
                 amount: counted(count, "mark"),
-                open: count <= OPEN,
+                open: few && count <= OPEN,
                 groups,
                 count,
             }
@@ -280,7 +279,7 @@ fn review(kit: &ReportKit, summary: &ClassSummary) -> Vec<ReviewGroup> {
         .collect()
 }
 
-/// More answers than these start closed.
+/// More answers than these start closed, and all do where they are of more criteria than these.
 const OPEN: usize = 8;
 
 /// Like answers together, by the group's id, so that files may be named as they will.
@@ -358,6 +357,7 @@ fn row(row: &ClassRow) -> RowView {
             (false, true) => "late",
             (false, false) => "",
         },
-        cover: row.mark.map_or_else(|| "waiting".to_owned(), |p| p.to_string()),
+        adjustments: class_marks::adjustments(row),
+        mark: class_marks::mark(row),
     }
 }

@@ -12,6 +12,10 @@ pub struct ClassSummary {
     pub counted: u64,
     /// (points earned in the questions, how many of these submissions earned them), the lowest first.
     pub totals: Vec<(Points, u64)>,
+    /// (mark, how many of these submissions have it), the lowest first.
+    pub marks: Vec<(Points, u64)>,
+    /// (box of the cover sheet, how many of these submissions wait for it), in the lab's order.
+    pub boxes_waiting: Vec<(String, u64)>,
     /// One a question, in the lab's order.
     pub questions: Vec<ItemStatistics>,
     /// One a criterion, in the lab's order.
@@ -76,9 +80,11 @@ pub struct ClassRow {
     pub findings: usize,
     /// Criteria that wait for a person.
     pub to_review: usize,
-    /// Sum of the cover sheet; `None` while a box is empty.
+    /// Sum of the cover sheet, before adjustments; `None` while a box is empty.
     pub cover_total: Option<Points>,
-    /// What counts in the end: that sum with what was added or taken by rule; `None` while a part waits for a person.
+    /// What changes that sum, and why; without points while it is a part of a sum that waits.
+    pub adjustments: Vec<(Option<Points>, String)>,
+    /// What counts in the end: that sum with the adjustments; `None` while a part waits for a person.
     pub mark: Option<Points>,
     /// False when the file as a whole could not be read.
     pub readable: bool,

@@ -4,6 +4,7 @@ mod anchor;
 mod answer_key;
 mod answers;
 mod class_analysis;
+mod class_marks;
 mod class_page;
 mod class_summary;
 mod compare_page;

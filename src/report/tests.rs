@@ -303,8 +303,13 @@ fn three_thousand_submissions_make_a_lean_class_page() {
         provisional: Points(50),
         findings: i % 3,
         to_review: i % 4,
-        cover_total: None,
-        mark: None,
+        cover_total: (i % 2 == 0).then_some(Points(4_000)),
+        adjustments: if i % 10 == 0 {
+            vec![(Some(Points(-500)), HOSTILE[i % HOSTILE.len()].into())]
+        } else {
+            Vec::new()
+        },
+        mark: (i % 2 == 0).then_some(Points(3_500)),
         readable: i % 7 > 0,
         missing: i % 50 == 0,
         late: i % 9 == 0,

@@ -167,7 +167,7 @@ fn the_mean_is_that_of_the_class_page() {
     program.write("in/c.yaml", "lab: [\n");
     let told = program.run(&["grade", "in", "--out", "out"]).ends_with(0).out;
     assert!(told.starts_with("3 submissions marked, mean 1 of 45 points\n"), "{told}");
-    assert!(fs::read_to_string(program.path("out/index.html")).unwrap().contains("Mean</dt><dd>1 of 45"));
+    assert!(fs::read_to_string(program.path("out/index.html")).unwrap().contains("Mean in the questions</dt><dd>1 of 45"));
 }
 
 #[test]

@@ -47,8 +47,8 @@ impl Middle {
     }
 }
 
-/// How many submissions earned how much, of `totals` as [`Middle::of`] takes them; none beyond `possible`.
-pub fn distribution(totals: &[(Points, u64)], possible: Points) -> Figure {
+/// How many submissions have how much, of `totals` as [`Middle::of`] takes them; none beyond `possible`.
+pub fn distribution(title: &str, totals: &[(Points, u64)], possible: Points) -> Figure {
     const BINS: usize = 15;
     let top = if possible > Points::ZERO { possible.as_f64() } else { 1.0 };
     let width = bin_width(top, BINS);
@@ -60,7 +60,7 @@ pub fn distribution(totals: &[(Points, u64)], possible: Points) -> Figure {
     }
     let highest = heights.iter().copied().max().unwrap_or(0).max(1);
     let mut figure = Figure::new(
-        "Points earned in the questions",
+        title,
         Axis::new("points", "", 0.0, width * count as f64),
         Axis::new("submissions", "", 0.0, highest as f64 * 1.08),
     );
@@ -97,11 +97,11 @@ mod tests {
     #[test]
     fn every_submission_is_in_one_bar() {
         let totals = [(0, 1), (2000, 2), (4490, 1), (4500, 1)].map(|(points, n)| (Points(points), n));
-        let figure = distribution(&totals, Points(4500));
+        let figure = distribution("Marks", &totals, Points(4500));
         assert!(figure.check().is_ok());
         assert_eq!(figure.bars.iter().map(|b| b.height).sum::<f64>(), 5.0);
         assert_eq!(figure.summary, "5 submissions: lowest 0, median 20, highest 45 of 45 points.");
-        assert!(distribution(&[], Points::ZERO).check().is_ok());
+        assert!(distribution("Marks", &[], Points::ZERO).check().is_ok());
     }
 
     #[track_caller]
