@@ -100,6 +100,26 @@ impl Reader<'_> {
                 answer: cell(5),
                 span: line_at(text, at),
             };
+            let comma = delimiter == b',';
+            if record.len() > header.len() && record.iter().any(|cell| !cell.is_empty()) {
+                let (found, wanted) = (record.len(), header.len());
+                let message = format!("This row has {found} cells, the first line has {wanted}.");
+                let help = "Put a cell with a separator in it into quotes: `\"1,5\"`.";
+                self.findings.report(Some(row.span), "marks.csv", message, Some(help));
+                continue;
+            }
+            // `1,5` in a table with commas.
+            if comma
+                && !row.points.is_empty()
+                && row.reason.bytes().all(|byte| byte.is_ascii_digit())
+                && !row.reason.is_empty()
+            {
+                let (points, part) = (quoted(&row.points), quoted(&row.reason));
+                let message = format!("The points are {points} and the reason is only {part}.");
+                let help = "For a decimal comma write a point, or put the number into quotes; else say why in words.";
+                self.findings.report(Some(row.span), "marks.points_unreadable", message, Some(help));
+                continue;
+            }
             self.row(&row, &mut file, &mut alike);
         }
         file.others.alike = Arc::new(alike);
