@@ -8,7 +8,7 @@ use std::process::ExitCode;
 /// Write down what still waits for a person, as a marks file to be filled in.
 #[derive(clap::Args)]
 #[command(
-    after_long_help = "Examples:\n  polemark marks out --out marks.yaml\n  polemark marks out --out marks.csv\n  polemark grade submissions --out out --marks marks.yaml\n\nA YAML file is only written where there is none. To a CSV file the rows are added that are not there; nothing in it is ever changed."
+    after_long_help = "Examples:\n  polemark marks out --out marks.yaml\n  polemark marks out --out marks.csv --suggest\n  polemark grade submissions --out out --marks marks.yaml\n\nA YAML file is only written where there is none. To a CSV file the rows are added that are not there; nothing in it is ever changed."
 )]
 pub struct Arguments {
     /// Output folder of `grade`.
@@ -17,10 +17,14 @@ pub struct Arguments {
     /// Marks file, .yaml or .csv; without it YAML is printed.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+    /// Fill in the points that polemark gave, with `confirmed` as the reason: look through them, and change what you do not agree
+    /// with.
+    #[arg(long)]
+    suggest: bool,
 }
 
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
-    let stub = stub(&arguments.folder)?;
+    let stub = stub(&arguments.folder)?.with_suggestions(arguments.suggest);
     if stub.is_empty() {
         eprintln!("{}", stub.in_short());
         return Ok(ExitCode::SUCCESS);

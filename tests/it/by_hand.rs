@@ -1,6 +1,6 @@
 //! What a person gives, from the stub to the mark: tests/it/small.yaml is not enough, since it has no observed rows.
 
-use crate::program::Program;
+use crate::program::{Program, samples};
 use polemark::class::Record;
 use std::fs;
 
@@ -191,6 +191,35 @@ fn from_the_stub_to_nothing_that_waits_and_back_when_an_answer_changes() {
     assert!(more.starts_with(table) && more.len() > table.len(), "{more}");
     assert!(program.run(&["marks", "out", "--out", "marks.csv"]).ends_with(0).err.contains(" 0 rows added"));
     program.run(&["grade", "in", "--out", "other", "--marks", "marks.csv"]).ends_with(0);
+}
+
+/// Nobody's points change, and of what polemark judged nothing waits any more.
+#[test]
+fn suggestions_left_as_they_are_confirm_what_polemark_gave() {
+    for marks in ["marks.yaml", "marks.csv"] {
+        let program = Program::new();
+        let class = samples();
+        let class = class.to_str().expect("a path");
+        program.run(&["grade", class, "--out", "out"]).ends_with(0);
+        let before = records(&program, "out");
+        program.run(&["marks", "out", "--out", marks, "--suggest"]).ends_with(0);
+        program.run(&["grade", class, "--out", "out", "--marks", marks]).ends_with(0);
+        let after = records(&program, "out");
+        assert_eq!(before.len(), after.len());
+        let (mut confirmed, mut judged) = (0, 0);
+        for (before, after) in before.iter().zip(&after) {
+            assert_eq!(before.total.earned, after.total.earned, "{}", before.submission);
+            for (item, now) in before.items.iter().zip(&after.items) {
+                assert_eq!(item.earned, now.earned, "{} {}", before.submission, item.id);
+                confirmed += usize::from(now.code == "by_hand" && item.code != "by_hand");
+                let waits = now.review.is_some() && now.provisional && now.verdict != "unmarked";
+                judged += usize::from(item.provisional && item.verdict != "unmarked");
+                // Whose a file is has to be said first.
+                assert!(!waits || after.held().next().is_some(), "{} {}", before.submission, item.id);
+            }
+        }
+        assert!(judged > 50 && confirmed > 50, "{confirmed} of {judged} {marks}");
+    }
 }
 
 #[test]

@@ -29,6 +29,8 @@ pub struct MarksStub {
     /// What no marks file settles: (file, what is wrong).
     elsewhere: Vec<(String, String)>,
     late: usize,
+    /// Points that polemark gave are filled in.
+    suggests: bool,
 }
 
 /// Like answers that one decision can serve.
@@ -59,7 +61,13 @@ struct About {
     possible: Points,
     why: String,
     begins: String,
+    /// The points to be confirmed. `None` where polemark judged nothing, gave like answers different points, or a person decided
+    /// about another answer.
+    suggestion: Option<Points>,
 }
+
+/// The reason of a suggestion that a person leaves as it is.
+const CONFIRMED: &str = "confirmed";
 
 impl About {
     fn of(item: &ItemRecord, review: &ReviewRecord) -> Self {
@@ -68,6 +76,8 @@ impl About {
             possible: item.possible,
             why: review.why.clone(),
             begins: review.answer.clone(),
+            suggestion: (item.provisional && item.verdict != "unmarked" && !review.decided)
+                .then_some(item.earned),
         }
     }
 }
@@ -75,6 +85,19 @@ impl About {
 impl MarksStub {
     pub fn new(lab: LabFacts) -> Self {
         Self { lab, ..Self::default() }
+    }
+
+    /// With the points that polemark gave, and `confirmed` as the reason, where it gave any: to be looked through and confirmed.
+    pub fn with_suggestions(self, suggests: bool) -> Self {
+        Self { suggests, ..self }
+    }
+
+    /// What is filled in of a decision: points and the reason.
+    fn filled_in(&self, about: &About) -> (String, &'static str) {
+        match about.suggestion.filter(|_| self.suggests) {
+            Some(points) => (points.to_string(), CONFIRMED),
+            None => (String::new(), ""),
+        }
     }
 
     pub fn add(&mut self, record: &Record) {
@@ -89,11 +112,14 @@ impl MarksStub {
             match &item.alike {
                 Some(group) if !review.decided => {
                     let key = (item.id.clone(), group.clone());
+                    let suggestion = about.suggestion;
                     let group = self.groups.entry(key).or_insert_with(|| Group {
                         about,
                         count: 0,
                         answers: BTreeSet::new(),
                     });
+                    group.about.suggestion =
+                        group.about.suggestion.filter(|points| suggestion == Some(*points));
                     group.count += 1;
                     if group.answers.len() <= MOST_ANSWERS {
                         group.answers.insert(answer);

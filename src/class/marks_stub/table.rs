@@ -98,7 +98,21 @@ impl MarksStub {
             let (possible, given) = (about.possible.to_string(), about.given.to_string());
             let answers: Vec<String> = group.listed_answers().into_iter().map(as_text).collect();
             let answers = answers.join(" ");
-            rows.push(row(["", item, id, "", "", &answers, "", &possible, &given, &why, &about.begins, ""]));
+            let (points, reason) = self.filled_in(about);
+            rows.push(row([
+                "",
+                item,
+                id,
+                &points,
+                reason,
+                &answers,
+                "",
+                &possible,
+                &given,
+                &why,
+                &about.begins,
+                "",
+            ]));
         }
         for student in self.asked() {
             let (id, name) = (student.id.as_str(), student.name.as_str());
@@ -134,12 +148,13 @@ impl MarksStub {
             }
             for (item, answer, about) in &student.items {
                 let (possible, given) = (about.possible.to_string(), about.given.to_string());
+                let (points, reason) = self.filled_in(about);
                 rows.push(row([
                     id,
                     item,
                     "",
-                    "",
-                    "",
+                    &points,
+                    reason,
                     &as_text(answer),
                     name,
                     &possible,

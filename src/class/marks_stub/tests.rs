@@ -104,6 +104,45 @@ fn the_stub_asks_for_everything_that_waits() {
 }
 
 #[test]
+fn only_points_that_polemark_gave_to_all_of_a_group_are_suggested() {
+    let group = |id: &str| record(id, &[("q.one", Some("said-1"), Some("3f2a91c05be7d410"))], &[], "Word.");
+    let alone = |id: &str| record(id, &[("q.two", None, None)], &[], "Word.");
+    let changed = |mut record: Record, change: fn(&mut ItemRecord)| {
+        record.items.iter_mut().for_each(change);
+        record
+    };
+    let decided = |item: &mut ItemRecord| item.review.iter_mut().for_each(|review| review.decided = true);
+    let (given, nothing) = (Some(" 0.5\n"), None);
+    for (what, records, wanted) in [
+        ("a group", vec![group("EE-1"), group("EE-2")], given),
+        (
+            "of which one got more",
+            vec![group("EE-1"), changed(group("EE-2"), |item| item.earned = Points(100))],
+            nothing,
+        ),
+        (
+            "of which one got more, and comes first",
+            vec![changed(group("EE-2"), |item| item.earned = Points(100)), group("EE-1")],
+            nothing,
+        ),
+        ("one alone", vec![alone("EE-1")], given),
+        ("not judged", vec![changed(alone("EE-1"), |item| item.verdict = "unmarked".to_owned())], nothing),
+        ("decided for another answer", vec![changed(alone("EE-1"), decided)], nothing),
+    ] {
+        let yaml = stub(&records).with_suggestions(true).to_yaml();
+        let points = yaml.split_once(" points:").map(|(_, rest)| rest).unwrap_or_default();
+        assert!(points.starts_with(wanted.unwrap_or("\n")), "{what}: {yaml}");
+        assert_eq!(yaml.contains("reason: confirmed"), wanted.is_some(), "{what}: {yaml}");
+        // A viva is nobody's to suggest.
+        assert!(yaml.contains("viva: # of 35"), "{what}: {yaml}");
+        let table = appended(b"", &stub(&records).with_suggestions(true)).unwrap().0;
+        let table = String::from_utf8(table).unwrap();
+        assert_eq!(table.contains(",0.5,confirmed,"), wanted.is_some(), "{what}: {table}");
+        assert!(!stub(&records).to_yaml().contains("confirmed"), "{what}: nothing is filled in unasked");
+    }
+}
+
+#[test]
 fn a_table_gets_only_the_rows_that_are_not_there() {
     let stub = class();
     let (first, added) = appended(b"", &stub).unwrap();

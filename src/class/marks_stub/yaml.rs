@@ -17,10 +17,16 @@ impl MarksStub {
 
     fn write(&self, out: &mut String) -> std::fmt::Result {
         writeln!(out, "# What waits for a person: {}.", comment(&self.lab.title))?;
-        writeln!(
-            out,
-            "# Fill in points and a reason, which the student reads; what stays empty is not given yet."
-        )?;
+        let how = match self.suggests {
+            true => {
+                "Points that polemark gave are filled in. Change what you do not agree with, with a reason, which the student reads; \
+                 empty the points of what you have not looked at."
+            }
+            false => {
+                "Fill in points and a reason, which the student reads; what stays empty is not given yet."
+            }
+        };
+        writeln!(out, "# {how}")?;
         writeln!(
             out,
             "# Then run grade again with --marks and this file. An answer that changes after that is put before you again."
@@ -61,7 +67,7 @@ impl MarksStub {
             }
             writeln!(out, "    {}: # {}", quoted(id), answers(group.count))?;
             about(out, "      ", &group.about)?;
-            writeln!(out, "      points:\n      reason:")?;
+            self.write_decision(out, "      ", &group.about)?;
             let hashes = group.listed_answers();
             match hashes.as_slice() {
                 [] => {}
@@ -100,6 +106,11 @@ impl MarksStub {
         Ok(())
     }
 
+    fn write_decision(&self, out: &mut String, indent: &str, about: &About) -> std::fmt::Result {
+        let (points, reason) = self.filled_in(about);
+        writeln!(out, "{indent}points:{}\n{indent}reason:{}", after(&points), after(reason))
+    }
+
     fn write_student(&self, out: &mut String, student: &OneStudent) -> std::fmt::Result {
         writeln!(out, "  {}: # {}", quoted(&student.id), comment(&student.name))?;
         if student.which_counts {
@@ -124,11 +135,17 @@ impl MarksStub {
             for (item, answer, what) in &student.items {
                 writeln!(out, "      {}: # {}", quoted(item), comment(self.title(item)))?;
                 about(out, "        ", what)?;
-                writeln!(out, "        points:\n        reason:\n        answer: {}", quoted(answer))?;
+                self.write_decision(out, "        ", what)?;
+                writeln!(out, "        answer: {}", quoted(answer))?;
             }
         }
         Ok(())
     }
+}
+
+/// What stands after a colon.
+fn after(value: &str) -> String {
+    if value.is_empty() { String::new() } else { format!(" {value}") }
 }
 
 fn about(out: &mut String, indent: &str, about: &About) -> std::fmt::Result {
