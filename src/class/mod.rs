@@ -45,8 +45,8 @@ pub use record::{
     StudentRecord,
 };
 pub use results::{Results, ResultsError, ResultsFacts};
-pub(crate) use roster::name_words;
 pub use roster::{Roster, RosterError, RosterStudent};
+pub(crate) use roster::{SAVE_AS, name_words};
 pub use run::{ClassError, ClassJob, Progress, grade_class};
 pub use run_facts::{LabFacts, LevelFacts, PartFacts, ProgramFacts, RunFacts};
 pub use workplace::is_unfinished;

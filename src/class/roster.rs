@@ -72,8 +72,8 @@ pub enum RosterError {
     Empty { name: String },
 }
 
-/// Spreadsheets have an encoding of their own as well.
-const SAVE_AS: &str = "; save it as CSV in UTF-8 (in Excel: “CSV UTF-8”)";
+/// What to do about a table in another encoding: spreadsheets have one of their own as well.
+pub const SAVE_AS: &str = "; save it as CSV in UTF-8 (in Excel: “CSV UTF-8”)";
 
 /// A course may have so many students, and a list so many bytes.
 const MOST_STUDENTS: usize = 20_000;

@@ -4,13 +4,13 @@ use super::outcome::{
 };
 use crate::algebra::significant;
 use crate::class::{
-    ClassJob, Outcome, RunFacts, Standing, compare, find_answer_files, grade_class, is_own_file,
+    ClassJob, Outcome, RunFacts, SAVE_AS, Standing, compare, find_answer_files, grade_class, is_own_file,
 };
 use crate::grading::Catalogue;
 use crate::grading::{Contradiction, HandMarksFile};
 use crate::lab::{LabDefinition, Release};
 use crate::report::ReportKit;
-use crate::source::{Finding, Severity, SourceText, decode_within, read_within, sanitize};
+use crate::source::{DecodeError, Finding, Severity, SourceText, decode_within, read_within, sanitize};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
@@ -200,8 +200,11 @@ fn load_marks(
 fn load_marks_file(path: &Path, lab: &LabDefinition) -> Result<(HandMarksFile, SourceText), Failure> {
     let read = |error| Failure::Read { path: path.to_path_buf(), error };
     let bytes = read_within(path, MOST_BYTES_OF_MARKS).map_err(read)?;
-    let text = decode_within(&bytes, MOST_BYTES_OF_MARKS)
-        .map_err(|error| read(std::io::Error::new(std::io::ErrorKind::InvalidData, error.to_string())))?;
+    let text = decode_within(&bytes, MOST_BYTES_OF_MARKS).map_err(|error| {
+        let is_table = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
+        let hint = if is_table && matches!(error, DecodeError::NotText { .. }) { SAVE_AS } else { "" };
+        read(std::io::Error::new(std::io::ErrorKind::InvalidData, format!("{error}{hint}")))
+    })?;
     let source = SourceText::new(path.to_string_lossy(), text);
     let (marks, findings) = HandMarksFile::parse(&source, lab);
     let rendered = rendered(findings.iter().collect(), &source);

@@ -167,7 +167,11 @@ fn the_mean_is_that_of_the_class_page() {
     program.write("in/c.yaml", "lab: [\n");
     let told = program.run(&["grade", "in", "--out", "out"]).ends_with(0).out;
     assert!(told.starts_with("3 submissions marked, mean 1 of 45 points\n"), "{told}");
-    assert!(fs::read_to_string(program.path("out/index.html")).unwrap().contains("Mean in the questions</dt><dd>1 of 45"));
+    assert!(
+        fs::read_to_string(program.path("out/index.html"))
+            .unwrap()
+            .contains("Mean in the questions</dt><dd>1 of 45")
+    );
 }
 
 #[test]
@@ -274,4 +278,20 @@ fn a_stub_is_whole_or_not_there() {
     assert!(
         program.run(&["marks", "out", "--out", "marks.yaml"]).ends_with(2).err.contains("is there already")
     );
+}
+
+#[test]
+fn a_table_in_another_encoding_is_refused_with_what_to_do() {
+    let program = class();
+    for (option, text) in [
+        ("--roster", &b"id,name\nEE-1,J\xf6rg\n"[..]),
+        ("--marks", b"student_id,item,points,reason\nEE-1,viva,3,gr\xfcn\n"),
+    ] {
+        fs::write(program.path("x.csv"), text).unwrap();
+        refused(
+            &program,
+            &["grade", "in", "--out", "out", option, "x.csv"],
+            "save it as CSV in UTF-8 (in Excel: “CSV UTF-8”)",
+        );
+    }
 }

@@ -65,6 +65,10 @@ pub fn appended(before: &[u8], stub: &MarksStub) -> Result<(Vec<u8>, usize), Stu
         out.extend(ending.as_bytes());
     };
     if is_new {
+        // By this mark Excel knows that it is UTF-8, and saves it so.
+        if before.is_empty() {
+            out.extend("\u{feff}".as_bytes());
+        }
         line(&COLUMNS.map(str::to_owned), &mut out);
     } else if !text.ends_with(['\n', '\r']) {
         out.extend(ending.as_bytes());

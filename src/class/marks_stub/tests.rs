@@ -148,6 +148,7 @@ fn a_table_gets_only_the_rows_that_are_not_there() {
     let (first, added) = appended(b"", &stub).unwrap();
     let text = String::from_utf8(first.clone()).unwrap();
     assert_eq!((added, text.lines().count()), (8, 9), "{text}");
+    assert!(text.starts_with("\u{feff}student_id,item,"), "{text}");
     assert!(text.contains("'=A") && !text.contains(",=A"), "{text}");
     let (again, added) = appended(&first, &stub).unwrap();
     assert_eq!((again == first, added), (true, 0));
