@@ -41,6 +41,8 @@ for (const table of document.querySelectorAll("table.sortable")) {
   const input = document.createElement("input");
   const count = document.createElement("output");
   input.type = "search";
+  const title = table.closest("section").querySelector("h2").textContent;
+  input.setAttribute("aria-label", title + ": only rows with");
   line.className = "filter";
   label.append("Only rows with ", input);
   line.append(label, " ", count);
