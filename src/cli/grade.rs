@@ -4,13 +4,16 @@ use super::outcome::{
 };
 use crate::algebra::significant;
 use crate::class::{
-    ClassJob, Outcome, RunFacts, SAVE_AS, Standing, compare, find_answer_files, grade_class, is_own_file,
+    ClassJob, Intake, Outcome, Place, RunFacts, SAVE_AS, Standing, compare, find_answer_files, grade_class,
+    is_own_file,
 };
 use crate::grading::Catalogue;
 use crate::grading::{Contradiction, HandMarksFile};
 use crate::lab::{LabDefinition, Release};
 use crate::report::ReportKit;
-use crate::source::{DecodeError, Finding, Severity, SourceText, decode_within, read_within, sanitize};
+use crate::source::{
+    DecodeError, Finding, MAX_TEXT_BYTES, Severity, SourceText, decode, decode_within, read_within, sanitize,
+};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
@@ -84,6 +87,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     // What polemark writes is not handed in, also where it writes into the folder it reads.
     let leave_out = |path: &Path| others.iter().any(|one| one == path) || is_own_file(&arguments.out, path);
     let intake = find_answer_files(&arguments.paths, &leave_out)?.with_attempts_settled(&lab.sheet);
+    warn_of_marks_files(&intake);
     // Read before anything is written into the same folder.
     let before = arguments.compare.as_deref().map(Standing::load).transpose()?;
     if let (Some(before), Some(path)) = (&before, &arguments.compare) {
@@ -213,6 +217,26 @@ fn load_marks_file(path: &Path, lab: &LabDefinition) -> Result<(HandMarksFile, S
     }
     eprint!("{rendered}");
     Ok((marks, source))
+}
+
+/// A marks file that was put beside the answers and forgotten would be somebody's empty answers, and what it gives would not count.
+fn warn_of_marks_files(intake: &Intake) {
+    for file in &intake.files {
+        let Place::File(path) = &file.place else { continue };
+        let name = path.file_name().map(|name| name.to_string_lossy().to_lowercase());
+        if !matches!(name.as_deref(), Some("marks.yaml" | "marks.yml")) {
+            continue;
+        }
+        let text =
+            read_within(path, MAX_TEXT_BYTES).ok().and_then(|bytes| decode(&bytes).ok()).unwrap_or_default();
+        let has = |key: &str| text.lines().any(|line| line.starts_with(key));
+        if (has("students:") || has("alike:")) && !has("answers:") {
+            let path = sanitize(&path.to_string_lossy());
+            eprintln!(
+                "warning: `{path}` looks like a marks file and is read as answers; if it is one, give it with `--marks`"
+            );
+        }
+    }
 }
 
 /// So many findings are shown; a table filled in by a slip may have one in each of its rows.

@@ -295,3 +295,16 @@ fn a_table_in_another_encoding_is_refused_with_what_to_do() {
         );
     }
 }
+
+#[test]
+fn a_marks_file_among_the_answers_is_pointed_out() {
+    let program = class();
+    program.write("in/marks.yaml", "students:\n  EE-1: {viva: 3}\n");
+    let told = program.run(&["grade", "in", "--out", "out"]).ends_with(0).err;
+    assert_eq!(
+        told,
+        "warning: `in/marks.yaml` looks like a marks file and is read as answers; if it is one, give it with `--marks`\n"
+    );
+    let ran = program.run(&["grade", "in", "--out", "out", "--marks", "in/marks.yaml"]).ends_with(0);
+    assert!(ran.out.starts_with("2 submissions marked") && ran.err.is_empty(), "{}{}", ran.out, ran.err);
+}
