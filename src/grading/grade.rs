@@ -461,7 +461,7 @@ impl<'a> Grader<'a> {
             Target {
                 with: one.with(),
                 at: Box::new(move |t| known.response.at(t)),
-                samples: known.samples(),
+                turns: known.turning_points(),
                 until_s: f64::INFINITY,
             }
         };
@@ -477,7 +477,7 @@ impl<'a> Grader<'a> {
                 .map(|simulation| Target {
                     with: String::new(),
                     at: Box::new(move |t| simulation.with.at(t)),
-                    samples: &simulation.with.samples,
+                    turns: &simulation.with.samples,
                     until_s: simulation.with.samples.last().map_or(0.0, |(t, _)| *t),
                 })
                 .collect(),

@@ -28,8 +28,8 @@ pub(super) struct Target<'a> {
     /// ` with g = 9.8`, or nothing.
     pub with: String,
     pub at: Box<dyn Fn(f64) -> f64 + 'a>,
-    /// Points of the curve, dense enough to see its extrema, in order of time.
-    pub samples: &'a [(f64, f64)],
+    /// Points of the curve in order of time, its extrema among them.
+    pub turns: &'a [(f64, f64)],
     /// Nothing is known after this time, s.
     pub until_s: f64,
 }
@@ -211,18 +211,18 @@ impl<'a> Rows<'a> {
 
         let span_s = demands.span_s;
         let span_end = span_s * (1.0 + EDGE);
-        let early = target.samples.iter().take_while(|(time, _)| *time <= span_s).map(|(_, y)| y.abs());
+        let early = target.turns.iter().take_while(|(time, _)| *time <= span_s).map(|(_, y)| y.abs());
         let at_end = (target.at)(span_s.min(target.until_s)).abs();
         let peak = early.fold(if at_end.is_finite() { at_end } else { 0.0 }, f64::max);
         let floor = FLOOR * peak;
         let (relative, absolute) = (to_f64(&demands.tolerance.relative), to_f64(&demands.tolerance.absolute));
 
-        let mut samples = target.samples.iter().peekable();
+        let mut turns = target.turns.iter().peekable();
         let mut largest: f64 = 0.0;
         let rows = times
             .iter()
             .map(|&(index, time)| {
-                while let Some((_, y)) = samples.next_if(|(sampled, _)| *sampled <= time) {
+                while let Some((_, y)) = turns.next_if(|(turn, _)| *turn <= time) {
                     largest = largest.max(y.abs());
                 }
                 let reference = (target.at)(time);
@@ -459,7 +459,7 @@ mod tests {
         Target {
             with: with.to_owned(),
             at: Box::new(move |t| scale * curve(t)),
-            samples,
+            turns: samples,
             until_s: f64::INFINITY,
         }
     }
@@ -582,7 +582,7 @@ mod tests {
         let demands = Demands { tolerance: &tolerance, min_points: 10, span_s: 3.0 };
         let samples: Vec<_> = (0..=300).map(|i| f64::from(i) / 100.0).map(|t| (t, curve(t))).collect();
         let target =
-            Target { with: String::new(), at: Box::new(curve), samples: &samples, until_s: f64::INFINITY };
+            Target { with: String::new(), at: Box::new(curve), turns: &samples, until_s: f64::INFINITY };
         let mark = judge(Points(100), &[target], &demands, Some(&data), None);
         assert_eq!(mark.code, code, "{what}: {}", mark.evidence.reason);
     }

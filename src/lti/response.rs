@@ -271,6 +271,12 @@ impl Response {
         sampling::samples(self, end_s, tolerance)
     }
 
+    /// (t, y) of start, extrema and end of 0..=`end_s`: between two of them y rises or falls. With more than 1,000 swings only
+    /// the highest and lowest point of each of 1,000 equal stretches.
+    pub fn turning_points(&self, end_s: f64) -> Vec<(f64, f64)> {
+        sampling::turning_points(self, end_s)
+    }
+
     /// Value, rate and curvature at t.
     pub(super) fn jet(&self, t: f64) -> [f64; 3] {
         if let Some(jet) = self.pieces().and_then(|pieces| pieces.jet(t)) {

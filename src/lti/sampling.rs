@@ -32,6 +32,16 @@ pub(super) fn samples(response: &Response, end_s: f64, tolerance: f64) -> Vec<(f
     band(response, start, end)
 }
 
+/// See [`Response::turning_points`].
+pub(super) fn turning_points(response: &Response, end_s: f64) -> Vec<(f64, f64)> {
+    let start = (0.0, response.at(0.0));
+    if !(end_s > 0.0 && end_s.is_finite()) {
+        return vec![start];
+    }
+    let end = (end_s, response.at(end_s));
+    knots(response, start, end).unwrap_or_else(|| band(response, start, end))
+}
+
 /// Start, extrema and end; `None` when there are too many of them.
 fn knots(response: &Response, start: (f64, f64), end: (f64, f64)) -> Option<Vec<(f64, f64)>> {
     let mut knots = vec![start];

@@ -1,7 +1,9 @@
 //! Prose as sentences.
 
 use super::words::{Gap, Token, words};
+use crate::memo::Memo;
 use std::ops::Deref;
+use std::sync::{Arc, LazyLock};
 
 /// The words of a sentence; at least one.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -11,7 +13,15 @@ pub struct Sentence {
 }
 
 /// The sentences of Markdown `text`, formulas reduced to a single word each. Linear in the length of the text.
-pub fn sentences(text: &str) -> Vec<Sentence> {
+///
+/// What is asked of one text is asked of its sentences many times over: those of the last few texts are kept.
+pub fn sentences(text: &str) -> Arc<Vec<Sentence>> {
+    const MOST: usize = 64;
+    static KNOWN: LazyLock<Memo<String, Vec<Sentence>>> = LazyLock::new(|| Memo::of(MOST));
+    KNOWN.get(text.to_owned(), |text| apart(text))
+}
+
+fn apart(text: &str) -> Vec<Sentence> {
     let mut sentences: Vec<Sentence> = Vec::new();
     for word in words(text) {
         let beginning = Beginnings::of_word(&word.text);

@@ -20,6 +20,7 @@ pub struct ResponseReference {
     /// Seconds shown.
     pub horizon_s: f64,
     drawn: OnceLock<Vec<(f64, f64)>>,
+    turns: OnceLock<Vec<(f64, f64)>>,
 }
 
 impl ResponseReference {
@@ -34,7 +35,13 @@ impl ResponseReference {
             horizon_s,
             response,
             drawn: OnceLock::new(),
+            turns: OnceLock::new(),
         })
+    }
+
+    /// (t, y) of start, extrema and end, to the horizon; worked out when they are first asked for.
+    pub fn turning_points(&self) -> &[(f64, f64)] {
+        self.turns.get_or_init(|| self.response.turning_points(self.horizon_s))
     }
 
     /// (t, y) for drawing, to the horizon. Worked out when they are first asked for: of a student's function they seldom are.

@@ -57,7 +57,7 @@ impl Attachments for Folder {
             return Err(AttachmentError::NotAFile);
         }
         let limit = MAX_ATTACHMENT_BYTES;
-        let mut bytes = Vec::new();
+        let mut bytes = Vec::with_capacity(metadata.len().min(limit as u64) as usize + 1);
         File::open(&path)
             .and_then(|file| file.take(limit as u64 + 1).read_to_end(&mut bytes))
             .map_err(|_| AttachmentError::Unreadable)?;

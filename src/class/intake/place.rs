@@ -96,10 +96,12 @@ impl Place {
 ///
 /// Errors: also for what is no plain file; a pipe could keep us waiting for ever.
 pub fn read_capped(path: &Path) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    if !std::fs::metadata(path)?.is_file() {
+    let metadata = std::fs::metadata(path)?;
+    if !metadata.is_file() {
         return Err(io::Error::new(io::ErrorKind::InvalidInput, "not a plain file"));
     }
+    // One more, so that the end is seen without asking for memory again.
+    let mut bytes = Vec::with_capacity(metadata.len().min(READ_LIMIT) as usize + 1);
     std::fs::File::open(path)?.take(READ_LIMIT).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
