@@ -45,8 +45,8 @@ pub struct HandMarks {
 }
 
 impl HandMarks {
-    /// What a person decided for a criterion worth `most`: for this student's answer, else for answers like it. Points out of
-    /// range are not given. Of several decisions it is the last that was made for the answer, else the last. `answer` works out
+    /// What a person decided for a criterion worth `most`: for this student's answer, else for answers like it. One for this student
+    /// that was made for another answer is only looked at when none for the group names the answer. Points out of range are not given. Of several decisions it is the last that was made for the answer, else the last. `answer` works out
     /// the hash of the answer.
     pub(super) fn given(
         &self,
@@ -60,16 +60,23 @@ impl HandMarks {
         let hash = OnceCell::new();
         let is_for =
             |given: &Override| given.answers.is_empty() || given.is_for(hash.get_or_init(answer).as_deref());
-        for decisions in [own, groups().map_or(&[][..], Vec::as_slice)] {
-            let in_range = |given: &&Override| (Points::ZERO..=most).contains(&given.points);
-            let mut latest_first = decisions.iter().rev().filter(in_range).peekable();
-            if let Some(latest) = latest_first.peek().copied() {
-                return Some(
-                    latest_first.find(|given| is_for(given)).map_or(Given::Held(latest), Given::Applies),
-                );
+        let like = groups().map_or(&[][..], Vec::as_slice);
+        let in_range = |given: &&Override| (Points::ZERO..=most).contains(&given.points);
+        let latest = |decisions: &'_ [Override]| decisions.iter().rposition(|given| in_range(&given));
+        let applies =
+            |decisions: &'_ [Override]| decisions.iter().rposition(|given| in_range(&given) && is_for(given));
+        match (applies(own).map(|at| &own[at]), latest(own).map(|at| &own[at])) {
+            (Some(given), _) => Some(Given::Applies(given)),
+            // One for the group takes its place only when it was made for this very answer.
+            (None, Some(held)) => {
+                let named = applies(like).map(|at| &like[at]).filter(|given| !given.answers.is_empty());
+                Some(named.map_or(Given::Held(held), Given::Applies))
+            }
+            (None, None) => {
+                let given = applies(like).map(|at| Given::Applies(&like[at]));
+                given.or_else(|| latest(like).map(|at| Given::Held(&like[at])))
             }
         }
-        None
     }
 
     /// Everything in which one student's marks can differ from another's, for comparing: decisions for groups aside.

@@ -289,6 +289,10 @@ fn of_several_decisions_the_one_for_this_answer_counts() {
     let rows = "EE-1,battery.nonlinearity.class,,0.25,old,#1111111111111111\nEE-1,battery.nonlinearity.class,,0.75,new,#2222222222222222 \
                 #3333333333333333\n,expect_hanging.settles,text-1,0.25,old,#1111111111111111\n,expect_hanging.settles,text-1,0.75,new,#1111111111111111 \
                 #2222222222222222\n";
+    let rows = format!(
+        "{rows}EE-1,dead_zone.plot,,0.25,own,#2222222222222222\n,dead_zone.plot,text-1,0.75,group,#1111111111111111\n\
+         EE-1,saturation.plot,,0.25,own,#2222222222222222\n,saturation.plot,text-1,0.75,group,\n"
+    );
     let (file, findings) =
         parse_as("marks.csv", &format!("student_id,item,group,points,reason,answer\n{rows}"));
     assert!(findings.is_empty(), "{findings:?}");
@@ -306,6 +310,11 @@ fn of_several_decisions_the_one_for_this_answer_counts() {
     check("battery.nonlinearity.class", "4", ("held", 75));
     check("expect_hanging.settles", "1", ("applies", 75));
     check("expect_hanging.settles", "4", ("held", 75));
+    check("dead_zone.plot", "2", ("applies", 25));
+    check("dead_zone.plot", "1", ("applies", 75));
+    check("dead_zone.plot", "3", ("held", 25));
+    check("saturation.plot", "2", ("applies", 25));
+    check("saturation.plot", "1", ("held", 25));
 }
 
 #[track_caller]
