@@ -10,21 +10,21 @@ use std::sync::Arc;
 ///
 /// What is kept decides how long a run takes, never what comes out. Clones share what they keep, and so do threads: two that
 /// ask for the same at the same time both work it out, and neither waits.
-pub struct Memo<K, V>(Arc<Cache<K, Arc<V>, Sizes<V>>>);
+pub struct Memo<K, V>(Arc<Cache<K, Arc<V>, Sizes<K, V>>>);
 
-/// How large a result is, in bytes or so.
-type Size<V> = fn(&V) -> usize;
+/// How large a result and what it follows from are together, in bytes or so.
+type Size<K, V> = fn(&K, &V) -> usize;
 
-struct Sizes<V>(Size<V>);
+struct Sizes<K, V>(Size<K, V>);
 
 impl<K: Eq + Hash, V> Memo<K, V> {
     /// Keeps `most` results.
     pub fn of(most: usize) -> Self {
-        Self(Arc::new(Cache::with_weighter(most, most as u64, Sizes(|_| 1))))
+        Self(Arc::new(Cache::with_weighter(most, most as u64, Sizes(|_, _| 1))))
     }
 
     /// Keeps results that are no larger than `most` bytes together, by `size`; about `many` of them.
-    pub fn of_bytes(most: usize, many: usize, size: Size<V>) -> Self {
+    pub fn of_bytes(most: usize, many: usize, size: Size<K, V>) -> Self {
         Self(Arc::new(Cache::with_weighter(many, most as u64, Sizes(size))))
     }
 
@@ -39,13 +39,13 @@ impl<K: Eq + Hash, V> Memo<K, V> {
     }
 }
 
-impl<K, V> Weighter<K, Arc<V>> for Sizes<V> {
-    fn weight(&self, _: &K, value: &Arc<V>) -> u64 {
-        (self.0)(value) as u64
+impl<K, V> Weighter<K, Arc<V>> for Sizes<K, V> {
+    fn weight(&self, key: &K, value: &Arc<V>) -> u64 {
+        (self.0)(key, value) as u64
     }
 }
 
-impl<V> Clone for Sizes<V> {
+impl<K, V> Clone for Sizes<K, V> {
     fn clone(&self) -> Self {
         Self(self.0)
     }
@@ -91,7 +91,7 @@ mod tests {
             let kept: usize = made.iter().filter(|one| Arc::strong_count(one) > 1).map(|one| one.len()).sum();
             assert!(0 < kept && kept <= at_most, "{kept} bytes");
         };
-        check(Memo::of_bytes(20_000, 100, Vec::len), 20_000);
+        check(Memo::of_bytes(20_000, 100, |_, value| value.len()), 20_000);
         check(Memo::of(8), 8 * 999);
     }
 }

@@ -30,9 +30,11 @@ struct Kept {
 /// The criterion, the first of those that are judged together, and the answer as typed.
 type Judged = (String, String);
 
-/// So many of each are kept: own models take some 10 kB, the others one or two.
+/// So many own models are kept; each takes some 10 kB.
 const MOST_OWN_MODELS: usize = 512;
-const MOST: usize = 4096;
+/// Bytes of marks, and of claims; and how many that is when answers are short.
+const MOST_BYTES: usize = 8 << 20;
+const MANY: usize = 4096;
 
 impl Known {
     /// Nothing, and nothing will be: for a single submission.
@@ -40,12 +42,18 @@ impl Known {
 
     pub fn new() -> Self {
         Self(Some(Kept {
-            marks: Memo::of(MOST),
+            marks: Memo::of_bytes(MOST_BYTES, MANY, |(_, text), (_, marks)| {
+                let words = |mark: &Mark| mark.evidence.expected.len() + mark.evidence.reason.len();
+                // As typed, as read, and quoted as evidence.
+                500 + 4 * text.len() + marks.iter().map(|mark| 500 + words(mark)).sum::<usize>()
+            }),
             own: Memo::of(MOST_OWN_MODELS),
             guards: Memo::of(MOST_OWN_MODELS),
             led_to: Memo::of(MOST_OWN_MODELS),
             behaviours: Memo::of(MOST_OWN_MODELS),
-            claims: Memo::of(MOST),
+            claims: Memo::of_bytes(MOST_BYTES, MANY, |(text, _), claims| {
+                200 + text.len() + 100 * claims.len()
+            }),
         }))
     }
 

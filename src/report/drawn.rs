@@ -29,9 +29,11 @@ type Bits = u64;
 impl Drawn {
     /// Keeps up to `most` bytes.
     pub fn new(most: usize) -> Self {
-        let curves = |one: &Result<OwnCurves, String>| one.as_ref().map_or(100, OwnCurves::size);
-        let figures =
-            |all: &Vec<FigureView>| all.iter().map(|one| one.svg_html.len().unwrap_or(0) + 1000).sum();
+        let curves = |_: &_, one: &Result<OwnCurves, String>| one.as_ref().map_or(1000, OwnCurves::size);
+        let figures = |shown: &Shown, all: &Vec<FigureView>| {
+            let data = shown.data.as_ref().map_or(0, |(_, numbers)| 8 * numbers.len());
+            data + all.iter().map(|one| one.svg_html.len().unwrap_or(0) + 1000).sum::<usize>()
+        };
         Self {
             curves: Memo::of_bytes(most / 2, most / 2 / 10_000, curves),
             figures: Memo::of_bytes(most / 2, most / 2 / 10_000, figures),
