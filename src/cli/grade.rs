@@ -88,6 +88,12 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let leave_out = |path: &Path| others.iter().any(|one| one == path) || is_own_file(&arguments.out, path);
     let intake = find_answer_files(&arguments.paths, &leave_out)?.with_attempts_settled(&lab.sheet);
     warn_of_marks_files(&intake);
+    if let Some(id) = marks.and_then(|marks| marks.late_for_nothing().next()) {
+        let id = sanitize(id);
+        eprintln!(
+            "warning: the marks say that `{id}` is late, and not what that costs: `late: {{points: 5}}` in YAML, `,late,,5` in CSV"
+        );
+    }
     // Read before anything is written into the same folder.
     let before = arguments.compare.as_deref().map(Standing::load).transpose()?;
     if let (Some(before), Some(path)) = (&before, &arguments.compare) {

@@ -308,3 +308,19 @@ fn a_marks_file_among_the_answers_is_pointed_out() {
     let ran = program.run(&["grade", "in", "--out", "out", "--marks", "in/marks.yaml"]).ends_with(0);
     assert!(ran.out.starts_with("2 submissions marked") && ran.err.is_empty(), "{}{}", ran.out, ran.err);
 }
+
+#[test]
+fn lateness_that_costs_nothing_is_pointed_out() {
+    let program = class();
+    program.write("late.csv", "student_id,item,group,points\nEE-1,late,,yes\n");
+    program.write("rule.yaml", "late: {points: 5}\n");
+    let late = ["grade", "in", "--out", "out", "--marks", "late.csv", "--marks", "rule.yaml"];
+    assert!(
+        program
+            .run(&late[..6])
+            .ends_with(0)
+            .err
+            .starts_with("warning: the marks say that `EE-1` is late, and not")
+    );
+    assert_eq!(program.run(&late).ends_with(0).err, "");
+}

@@ -216,6 +216,13 @@ impl HandMarksFile {
         absent.map(finding).collect()
     }
 
+    /// Students who are said to be late where nothing says what that costs.
+    pub fn late_for_nothing(&self) -> impl Iterator<Item = &str> {
+        let late =
+            self.students.values().filter(|(_, marks)| marks.late == Some(true) && marks.late_rule.is_none());
+        late.map(|(id, _)| id.as_str())
+    }
+
     /// As they are spelled, in the order of the folded ids.
     pub fn student_ids(&self) -> impl Iterator<Item = &str> {
         self.students.values().map(|(id, _)| id.as_str())

@@ -169,6 +169,10 @@ impl Reader<'_> {
             self.findings.report(Some(*span), "marks.shape", message, Some(help));
             return;
         }
+        if !given && !reason.is_empty() && !matches!(item.as_str(), "is" | "counts") {
+            let message = format!("{} has a reason and no points: it is not given yet.", quoted(item));
+            self.findings.0.push(Finding::warning("marks.points_missing", message).at(*span));
+        }
         if said && item != "adjustment" && self.is_twice(row) {
             self.findings.twice(*span, &format!("{} is decided", quoted(item)));
         }

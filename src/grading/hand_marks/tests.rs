@@ -238,6 +238,10 @@ fn what_does_not_fit_in_a_table_is_said_and_where() {
         ),
         (row("EE-1,battery.nonlinearity.class,,0,5"), "3:1 marks.points_unreadable The points are `0`"),
         ("student_id,item,points\nEE-1,viva,30,5\n".to_owned(), "2:1 marks.csv This row has 4 cells"),
+        (
+            row("EE-1,adjustment,,,-5 untidy,"),
+            "3:1 marks.points_missing `adjustment` has a reason and no points",
+        ),
         (row("EE-1,,,3,,"), "3:1 marks.shape What these points are for is missing."),
         (row("EE-1,viva,,3,,\nee 1,viva,,4,,"), "4:1 marks.twice "),
         (row("EE-1,viva,,3,\"ok,\nEE-2,viva,,4,,"), "3:14 marks.csv This quote is not closed"),
