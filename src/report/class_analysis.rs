@@ -37,13 +37,17 @@ pub struct ItemView {
 #[derive(Serialize)]
 pub struct MistakeView {
     number: String,
-    words_html: String,
-    for_example: bool,
+    /// It was one of these; one of them says what is so of an answer that nothing explains.
+    explanations: Vec<ExplanationView>,
     count: usize,
     share: String,
-    /// `3 of them are explained by something else as well`, or nothing.
-    among_others: String,
     people: PeopleView,
+}
+
+#[derive(Serialize)]
+pub struct ExplanationView {
+    words_html: String,
+    for_example: bool,
 }
 
 #[derive(Serialize)]
@@ -99,6 +103,8 @@ pub struct SharedAnswerView {
     among: String,
 }
 
+/// Kinds of mistakes that are listed.
+const MOST_MISTAKES: usize = 60;
 /// Groups who share answers that are listed.
 const MOST_SHARED: usize = 100;
 
@@ -175,24 +181,38 @@ fn percent(share: f64) -> String {
     format!("{:.0}\u{a0}%", 100.0 * share)
 }
 
+/// The most frequent ones, and what nothing explains.
 pub fn mistakes(lab: &LabDefinition, made: &[MistakeMade], counted_all: u64) -> Vec<MistakeView> {
     let number_of = |id: &str| {
         let question = lab.questions.iter().find(|question| question.id == id);
         question.map_or_else(|| id.to_owned(), |question| question.number.clone())
     };
+    let explanation = |words: &str, for_example: bool| ExplanationView {
+        words_html: prose::sentences(&sanitize(words)),
+        for_example,
+    };
     let view = |one: &MistakeMade| MistakeView {
         number: number_of(&one.question),
-        words_html: prose::sentences(&sanitize(&one.words)),
-        for_example: one.for_example,
+        explanations: match one.explanations.as_slice() {
+            [] => vec![explanation("No single slip or pair of them explains it.", false)],
+            some => some.iter().map(|one| explanation(&one.words, one.for_example)).collect(),
+        },
         count: one.people.count,
         share: percent(one.people.count as f64 / counted_all.max(1) as f64),
-        among_others: match one.among_others {
-            0 => String::new(),
-            n => format!("{n} explained by something else as well"),
-        },
         people: people(&one.people),
     };
-    made.iter().map(view).collect()
+    listed_mistakes(made).map(view).collect()
+}
+
+/// How many answers have explanations that are not listed.
+pub fn mistakes_not_listed(made: &[MistakeMade]) -> usize {
+    let all: usize = made.iter().map(|one| one.people.count).sum();
+    all - listed_mistakes(made).map(|one| one.people.count).sum::<usize>()
+}
+
+fn listed_mistakes(made: &[MistakeMade]) -> impl Iterator<Item = &MistakeMade> {
+    let (unexplained, explained): (Vec<_>, Vec<_>) = made.iter().partition(|one| one.explanations.is_empty());
+    explained.into_iter().take(MOST_MISTAKES).chain(unexplained)
 }
 
 /// Submissions that are named without being asked for.
@@ -257,4 +277,32 @@ pub fn shared(groups: &[AnswersShared]) -> Vec<SharedView> {
             .collect(),
     };
     groups.iter().take(MOST_SHARED).map(view).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::class_summary::Explanation;
+    use super::*;
+
+    #[test]
+    fn a_long_list_of_mistakes_is_cut_and_what_nothing_explains_stays() {
+        let lab = crate::lab::load(crate::lab::DEFAULT).expect("it is checked");
+        let made = |explained: bool, count: usize| MistakeMade {
+            question: lab.questions[0].id.clone(),
+            explanations: if explained {
+                vec![Explanation { words: "A term is missing.".into(), for_example: false }]
+            } else {
+                Vec::new()
+            },
+            people: People { count, first: Vec::new() },
+        };
+        #[track_caller]
+        fn check(lab: &LabDefinition, made: &[MistakeMade], want: (usize, usize)) {
+            assert_eq!((mistakes(lab, made, 9).len(), mistakes_not_listed(made)), want);
+        }
+        check(&lab, &[], (0, 0));
+        let all = |n: usize| (0..n).map(|_| made(true, 2)).chain([made(false, 7)]).collect::<Vec<_>>();
+        check(&lab, &all(MOST_MISTAKES), (MOST_MISTAKES + 1, 0));
+        check(&lab, &all(MOST_MISTAKES + 3), (MOST_MISTAKES + 1, 6));
+    }
 }

@@ -35,8 +35,8 @@ pub struct ClassPage {
     questions: Vec<ItemView>,
     criteria: Vec<ItemView>,
     mistakes: Vec<MistakeView>,
-    /// Explanations that were too many to be kept apart.
-    more_mistakes: usize,
+    /// `3 answers` whose explanations are not listed, or nothing.
+    more_mistakes: String,
     classes: Option<ConfusionView>,
     outcomes: Vec<AttainmentView>,
     borderline: Option<BorderlineView>,
@@ -152,7 +152,10 @@ pub fn page(kit: &ReportKit, summary: &ClassSummary) -> ClassPage {
         questions: class_analysis::questions(lab, &summary.questions),
         criteria: class_analysis::criteria(lab, &summary.criteria),
         mistakes: class_analysis::mistakes(lab, &summary.mistakes, summary.counted),
-        more_mistakes: summary.more_mistakes,
+        more_mistakes: match summary.more_mistakes + class_analysis::mistakes_not_listed(&summary.mistakes) {
+            0 => String::new(),
+            n => counted(n, "answer"),
+        },
         classes: class_analysis::classes(&summary.classes),
         outcomes: class_analysis::outcomes(&summary.outcomes),
         borderline: class_marks::borderline(lab, &summary.rows),

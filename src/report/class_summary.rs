@@ -22,7 +22,7 @@ pub struct ClassSummary {
     pub criteria: Vec<ItemStatistics>,
     /// What explains wrong transfer functions, the most frequent first.
     pub mistakes: Vec<MistakeMade>,
-    /// Explanations that were too many to be kept apart.
+    /// Submissions whose explanations were too many to be kept apart.
     pub more_mistakes: usize,
     /// Classes of nonlinearities, as answered and as right.
     pub classes: Confusion,
@@ -146,21 +146,21 @@ impl People {
     }
 }
 
-/// A mistake that explains wrong transfer functions of one question.
+/// What explains wrong transfer functions of one question.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MistakeMade {
     /// The question's id.
     pub question: String,
-    /// Stable; empty for what nothing explains.
-    pub code: String,
+    /// Mistakes that explain them alike, so that it was one of these; none for what nothing explains.
+    pub explanations: Vec<Explanation>,
+    pub people: People,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Explanation {
     pub words: String,
     /// The words are those of one of several like slips.
     pub for_example: bool,
-    /// Submissions of which it is the only explanation.
-    pub alone: usize,
-    /// Submissions that something else explains as well.
-    pub among_others: usize,
-    pub people: People,
 }
 
 /// How often what was answered where what was right.

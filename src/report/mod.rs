@@ -40,8 +40,8 @@ mod view;
 
 pub use anchor::{item_anchor, question_anchor};
 pub use class_summary::{
-    AnswersShared, Attainment, ClassRow, ClassSummary, Confusion, IntakeEntry, IntakeKind, ItemStatistics,
-    MistakeMade, People, Person, ReviewEntry, SharedAnswer,
+    AnswersShared, Attainment, ClassRow, ClassSummary, Confusion, Explanation, IntakeEntry, IntakeKind,
+    ItemStatistics, MistakeMade, People, Person, ReviewEntry, SharedAnswer,
 };
 pub use compare_page::compare_page;
 pub use handout::{HandoutKit, HandoutStudent};

@@ -369,11 +369,10 @@ fn three_thousand_submissions_make_a_lean_class_page() {
         criteria: question.criteria.iter().map(|one| statistics(&one.id)).collect(),
         mistakes: vec![MistakeMade {
             question: question.id.clone(),
-            code: "term.sign".into(),
-            words: "The term `b*x'` is missing.".into(),
-            for_example: true,
-            alone: 3,
-            among_others: 2,
+            explanations: vec![
+                Explanation { words: "The term `b*x'` is missing.".into(), for_example: true };
+                2
+            ],
             people: people.clone(),
         }],
         classes: Confusion {

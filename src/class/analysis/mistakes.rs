@@ -1,23 +1,23 @@
 use crate::class::Record;
 use crate::class::record::ExplanationRecord;
 use crate::lab::LabDefinition;
-use crate::report::{MistakeMade, People};
-use std::collections::BTreeMap;
+use crate::report::{Explanation, MistakeMade, People};
+use std::collections::{BTreeMap, BTreeSet};
 
-/// More different mistakes are counted together.
+/// More different explanations are counted together.
 const MOST: usize = 1000;
 
 /// Which mistakes explain the wrong transfer functions of a class, and how many submissions have each.
 ///
-/// Parameter values that were taken on the way (`With g = 9.8, …`) make no other mistake. Slips of digits are one mistake a
-/// question, whatever the digits.
+/// What several mistakes explain alike is counted once, for all of them together: a row for each set of mistakes, and no answer in
+/// two rows. Parameter values that were taken on the way (`With g = 9.8, …`) make no other mistake. Slips of digits are one
+/// mistake a question, whatever the digits.
 pub struct Mistakes {
     /// Place of the question by the criterion's id.
     questions: BTreeMap<String, usize>,
-    /// By question, code, and words (none of a slip).
-    made: BTreeMap<(usize, String, String), MistakeMade>,
+    /// By question and, for each mistake of the set, code and words (none of a slip).
+    made: BTreeMap<(usize, BTreeSet<(String, String)>), MistakeMade>,
     ids: Vec<String>,
-    unexplained: BTreeMap<usize, People>,
     not_listed: usize,
 }
 
@@ -30,7 +30,6 @@ impl Mistakes {
             questions: criteria.collect(),
             made: BTreeMap::new(),
             ids: lab.questions.iter().map(|question| question.id.clone()).collect(),
-            unexplained: BTreeMap::new(),
             not_listed: 0,
         }
     }
@@ -41,51 +40,35 @@ impl Mistakes {
             let (Some(diagnosis), Some(&question)) = (&item.diagnosis, self.questions.get(&item.id)) else {
                 continue;
             };
-            if diagnosis.explanations.is_empty() {
-                self.unexplained.entry(question).or_default().add(who, link);
-            }
-            let alone = diagnosis.explanations.len() == 1;
+            let mut set = BTreeSet::new();
+            let mut explanations = Vec::new();
             for one in &diagnosis.explanations {
-                let words = words(one);
-                let key = match is_slip(&one.code) {
-                    true => String::new(),
-                    false => words.clone(),
-                };
-                let key = (question, one.code.clone(), key);
-                if self.made.len() >= MOST && !self.made.contains_key(&key) {
-                    self.not_listed += 1;
-                    continue;
+                let (words, for_example) = (words(one), is_slip(&one.code));
+                let key = if for_example { String::new() } else { words.clone() };
+                if set.insert((one.code.clone(), key)) {
+                    explanations.push(Explanation { words, for_example });
                 }
-                let made = self.made.entry(key).or_insert_with(|| MistakeMade {
-                    question: self.ids[question].clone(),
-                    code: one.code.clone(),
-                    words,
-                    for_example: is_slip(&one.code),
-                    alone: 0,
-                    among_others: 0,
-                    people: People::default(),
-                });
-                made.alone += usize::from(alone);
-                made.among_others += usize::from(!alone);
-                made.people.add(who, link);
             }
+            let key = (question, set);
+            if self.made.len() >= MOST && !self.made.contains_key(&key) {
+                self.not_listed += 1;
+                continue;
+            }
+            let made = self.made.entry(key).or_insert_with(|| MistakeMade {
+                question: self.ids[question].clone(),
+                explanations,
+                people: People::default(),
+            });
+            made.people.add(who, link);
         }
     }
 
-    /// The most frequent first, then in the lab's order; and how many explanations were too many to be kept apart.
+    /// The most frequent first, then in the lab's order, what nothing explains at the end; and how many answers had explanations
+    /// that were too many to be kept apart.
     pub fn list(&self) -> (Vec<MistakeMade>, usize) {
         let mut list: Vec<MistakeMade> = self.made.values().cloned().collect();
-        list.extend(self.unexplained.iter().map(|(question, people)| MistakeMade {
-            question: self.ids[*question].clone(),
-            code: String::new(),
-            words: "No single slip or pair of them explains it.".to_owned(),
-            for_example: false,
-            alone: 0,
-            among_others: 0,
-            people: people.clone(),
-        }));
         // Stable: what is as frequent stays in the lab's order.
-        list.sort_by_key(|one| (one.code.is_empty(), std::cmp::Reverse(one.people.count)));
+        list.sort_by_key(|one| (one.explanations.is_empty(), std::cmp::Reverse(one.people.count)));
         (list, self.not_listed)
     }
 }
@@ -106,6 +89,7 @@ fn words(one: &ExplanationRecord) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use serde_json::json;
 
     #[track_caller]
     fn check(words_of: &str, changes: &[&str], want: &str) {
@@ -122,6 +106,43 @@ mod tests {
         check("The term `b*x'` is missing.", &["equation 1: b*x' -> 0"], "The term `b*x'` is missing.");
         check("With g = 9.8, the term is missing.", &["g = 9.8", "equation 1"], "The term is missing.");
         check("With g = 9.8, b = 2, the term.", &["g = 9.8", "b = 2", "equation 1"], "The term.");
+    }
+
+    #[test]
+    fn every_answer_is_counted_once_whatever_explains_it() {
+        let lab = crate::lab::load(crate::lab::DEFAULT).expect("it is checked");
+        let question = &lab.questions[0];
+        let mut mistakes = Mistakes::new(&lab);
+        for explained in [
+            &[("term.sign", "A.")][..],
+            &[("term.sign", "A."), ("point.other", "B.")],
+            &[("point.other", "B."), ("term.sign", "A.")],
+            &[("slip.digit", "1 for 2.")],
+            &[("slip.digit", "3 for 4.")],
+            &[],
+            &[],
+            &[],
+        ] {
+            let mut item = crate::class::analysis::samples::item(&question.criteria[0].id, "wrong", "");
+            let one = |(code, words): &(&str, &str)| json!({"code": code, "words": words, "changes": []});
+            let explanations: Vec<_> = explained.iter().map(one).collect();
+            item["diagnosis"] = json!({"explanations": explanations, "searched": 9});
+            mistakes.add(&crate::class::analysis::samples::record_of(&[item]), "A", "a.html");
+        }
+        let (list, not_listed) = mistakes.list();
+        let found: Vec<_> = list
+            .iter()
+            .map(|one| {
+                let words: Vec<_> = one.explanations.iter().map(|one| one.words.as_str()).collect();
+                (one.people.count, words)
+            })
+            .collect();
+        let want = [(2, vec!["1 for 2."]), (2, vec!["A.", "B."]), (1, vec!["A."]), (3, vec![])];
+        assert_eq!(not_listed, 0);
+        assert_eq!(found.len(), want.len());
+        assert!(want.iter().all(|one| found.contains(one)), "{found:?}");
+        assert_eq!(found.last(), Some(&(3, vec![])), "what nothing explains is at the end, however frequent");
+        assert_eq!(found[2].0, 1, "the most frequent first");
     }
 
     #[test]
