@@ -128,25 +128,27 @@ pub fn counted_words(summary: &ClassSummary) -> String {
     words
 }
 
-pub fn questions(lab: &LabDefinition, statistics: &[ItemStatistics]) -> Vec<ItemView> {
+/// `n` submissions are counted.
+pub fn questions(lab: &LabDefinition, statistics: &[ItemStatistics], n: u64) -> Vec<ItemView> {
     let named = |one: &ItemStatistics| {
         let question = lab.questions.iter().find(|question| question.id == one.id);
         question.map_or_else(|| (String::new(), one.id.clone()), |q| (q.number.clone(), q.title.clone()))
     };
-    statistics.iter().map(|one| item(named(one), one)).collect()
+    statistics.iter().map(|one| item(named(one), one, n)).collect()
 }
 
-pub fn criteria(lab: &LabDefinition, statistics: &[ItemStatistics]) -> Vec<ItemView> {
+/// `n` submissions are counted.
+pub fn criteria(lab: &LabDefinition, statistics: &[ItemStatistics], n: u64) -> Vec<ItemView> {
     let all = lab.questions.iter().flat_map(|q| q.criteria.iter().map(move |criterion| (q, criterion)));
     let names: BTreeMap<&str, (String, String)> =
         all.map(|(q, one)| (one.id.as_str(), (q.number.clone(), one.title.clone()))).collect();
     let named = |one: &ItemStatistics| {
         names.get(one.id.as_str()).cloned().unwrap_or_else(|| (String::new(), one.id.clone()))
     };
-    statistics.iter().map(|one| item(named(one), one)).collect()
+    statistics.iter().map(|one| item(named(one), one, n)).collect()
 }
 
-fn item((number_of, title): (String, String), one: &ItemStatistics) -> ItemView {
+fn item((number_of, title): (String, String), one: &ItemStatistics, n: u64) -> ItemView {
     let hundredths = one.mean.filter(|mean| mean.is_finite()).map_or(0, |mean| (mean * 100.0).round() as i64);
     ItemView {
         number: number_of,
@@ -157,7 +159,7 @@ fn item((number_of, title): (String, String), one: &ItemStatistics) -> ItemView 
         facility: one.facility.map_or_else(|| "–".to_owned(), percent),
         discrimination: index(one.discrimination),
         upper_less_lower: index(one.upper_less_lower),
-        doubtful: one.discrimination.is_some_and(|r| r < -0.005),
+        doubtful: one.discrimination.is_some_and(|r| is_doubtful(r, n)),
         right: one.right,
         partly: one.partly,
         wrong: one.wrong,
@@ -165,6 +167,11 @@ fn item((number_of, title): (String, String), one: &ItemStatistics) -> ItemView 
         open: one.open,
         provisional: one.provisional,
     }
+}
+
+/// Whether a correlation among `n` is so far below 0 that chance gives it only about once in forty times: r < −2/√n.
+fn is_doubtful(r: f64, n: u64) -> bool {
+    n > 2 && r * (n as f64).sqrt() < -2.0
 }
 
 /// `0.42`; a dash where it is not defined.
@@ -283,6 +290,21 @@ pub fn shared(groups: &[AnswersShared]) -> Vec<SharedView> {
 mod tests {
     use super::super::class_summary::Explanation;
     use super::*;
+
+    #[test]
+    fn a_negative_discrimination_is_doubtful_beyond_chance_only() {
+        for (r, n, doubtful) in [
+            (-0.03, 3_000, false),
+            (-0.05, 3_000, true),
+            (-0.44, 20, false),
+            (-0.46, 20, true),
+            (0.9, 20, false),
+            (-1.0, 2, false),
+            (f64::NAN, 20, false),
+        ] {
+            assert_eq!(is_doubtful(r, n), doubtful, "{r} among {n}");
+        }
+    }
 
     #[test]
     fn a_long_list_of_mistakes_is_cut_and_what_nothing_explains_stays() {

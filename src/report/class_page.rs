@@ -39,6 +39,8 @@ pub struct ClassPage {
     more_mistakes: String,
     classes: Option<ConfusionView>,
     outcomes: Vec<AttainmentView>,
+    /// Some outcome has a target.
+    targets: bool,
     borderline: Option<BorderlineView>,
     shared: Vec<SharedView>,
     not_compared: usize,
@@ -149,8 +151,8 @@ pub fn page(kit: &ReportKit, summary: &ClassSummary) -> ClassPage {
         marks_words: class_marks::words(summary),
         spreads: class_marks::spreads(lab, summary),
         grades: class_marks::grades(lab, summary),
-        questions: class_analysis::questions(lab, &summary.questions),
-        criteria: class_analysis::criteria(lab, &summary.criteria),
+        questions: class_analysis::questions(lab, &summary.questions, summary.counted),
+        criteria: class_analysis::criteria(lab, &summary.criteria, summary.counted),
         mistakes: class_analysis::mistakes(lab, &summary.mistakes, summary.counted),
         more_mistakes: match summary.more_mistakes + class_analysis::mistakes_not_listed(&summary.mistakes) {
             0 => String::new(),
@@ -158,6 +160,7 @@ pub fn page(kit: &ReportKit, summary: &ClassSummary) -> ClassPage {
         },
         classes: class_analysis::classes(&summary.classes),
         outcomes: class_analysis::outcomes(&summary.outcomes),
+        targets: summary.outcomes.iter().any(|one| one.target.is_some()),
         borderline: class_marks::borderline(lab, &summary.rows),
         shared: class_analysis::shared(&summary.answers_shared),
         not_compared: summary.answers_not_compared,

@@ -66,6 +66,7 @@ impl Attainments {
                 earned += given;
                 possible += row.possible;
             }
+            outcome.result.waiting += if waits { students } else { 0 };
             if possible <= Points::ZERO {
                 continue;
             }
@@ -73,7 +74,6 @@ impl Attainments {
                 Rational::from(earned.0) >= target.clone() * Rational::from(possible.0)
             });
             outcome.result.students += students;
-            outcome.result.waiting += if waits { students } else { 0 };
             outcome.result.reached += if reached { students } else { 0 };
             outcome.shares += students as f64 * earned.as_f64() / possible.as_f64();
         }
@@ -127,5 +127,14 @@ mod tests {
         assert_eq!((got.students, got.reached, got.waiting), (4, 2, 1));
         // (0.6 + 2·0.5333 + 0.7) / 4
         assert!((got.mean_share.unwrap() - (0.6 + 2.0 * 8.0 / 15.0 + 0.7) / 4.0).abs() < 1e-12);
+
+        // All of it waits: nobody's share is known, and that is said.
+        attainments.outcomes[0].questions.clear();
+        let mut record = record_of(&[worth("q.a", "partly", 100)]);
+        let row = crate::class::record::BoxRecord { id: "o".into(), earned: None, possible: Points(500) };
+        record.observed.push(row);
+        attainments.add(&record);
+        let got = &attainments.list()[0];
+        assert_eq!((got.students, got.waiting), (4, 2));
     }
 }
