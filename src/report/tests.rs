@@ -145,7 +145,7 @@ pub(super) fn check_page(what: &str, html: &str) {
         blockquote sup details summary script svg desc path text math mrow mi mn mo mtext mspace mfrac msqrt mroot msup msub \
         msubsup munder mover munderover mtable mtr mtd mpadded mphantom mstyle";
     const ATTRIBUTES: &str = "lang charset name content http-equiv class href id aria-labelledby aria-label aria-hidden \
-        role scope colspan value style viewBox d x y text-anchor alt width height src display accent stretchy mathvariant symmetric \
+        role scope colspan value style viewBox d x y alt width height src display accent stretchy mathvariant symmetric \
         fence separator lspace rspace minsize maxsize movablelimits largeop form accentunder linethickness rel open \
         start displaystyle scriptlevel columnspan rowspan depth";
     let (elements, attributes): (BTreeSet<_>, BTreeSet<_>) =

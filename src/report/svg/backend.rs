@@ -191,11 +191,15 @@ impl DrawingBackend for Paper<'_> {
     }
 
     fn draw_text<T: BackendTextStyle>(&mut self, text: &str, style: &T, at: BackendCoord) -> Drawn {
-        self.flush();
+        // Ticks and their labels take turns: all of an axis stays one path.
+        if self.run.as_ref().is_some_and(|(class, _)| *class != Class::INK) {
+            self.flush();
+        }
+        // The style sheet knows what these stand for.
         let anchor = match style.anchor().h_pos {
             HPos::Left => "",
-            HPos::Right => " text-anchor=\"end\"",
-            HPos::Center => " text-anchor=\"middle\"",
+            HPos::Right => " e",
+            HPos::Center => " m",
         };
         // From the given corner to the baseline, in em of a common sans-serif face.
         let drop = match style.anchor().v_pos {
@@ -205,7 +209,7 @@ impl DrawingBackend for Paper<'_> {
         };
         let y = at.1 + (drop * style.size()).round() as i32;
         let class = Class::of(style.color()).name();
-        let _ = write!(self.out, "<text class=\"{class}\" x=\"{}\" y=\"{y}\"{anchor}>", at.0);
+        let _ = write!(self.out, "<text class=\"{class}{anchor}\" x=\"{}\" y=\"{y}\">", at.0);
         escape(self.out, text);
         self.out.push_str("</text>");
         Ok(())
