@@ -82,6 +82,7 @@ fn lateness_and_adjustments_make_the_mark() {
     let by_hand = format!("viva: 30\n    observed: {{{}}}\n", observed.join(", "));
     program.write("in/doejane_LATE_1234_56789_lab1.yaml", &answers("EE-1", "Jane Doe", TIPS));
     program.write("in/roejohn_1235_56790_lab1.yaml", &answers("EE-2", "John Roe", TIPS));
+    program.write("in/poesam_1236_56791_lab1.yaml", &answers("EE-3", "Sam Poe", TIPS));
     let marks = format!(
         "late: {{points: 5}}\nstudents:\n  EE-1:\n    {by_hand}  EE-2:\n    {by_hand}    adjustments: [{{points: -2.5, reason: '<b>untidy'}}]\n"
     );
@@ -98,6 +99,19 @@ fn lateness_and_adjustments_make_the_mark() {
         assert_eq!(adjusted, [(by, reason)]);
         let page = fs::read_to_string(program.path("out").join(&record.report)).unwrap();
         assert!(page.contains("Adjustments") && !page.contains("<b>untidy"), "{id}");
+    }
+    // The class page is about the marks, and counts the one that is not known as nothing, not as 0.
+    let (late, untidy) = (record_of(&program, "out", "EE-1"), record_of(&program, "out", "EE-2"));
+    let mean = (late.mark.unwrap().earned.as_f64() + untidy.mark.unwrap().earned.as_f64()) / 2.0;
+    let class = fs::read_to_string(program.path("out/index.html")).unwrap();
+    for part in [
+        &*format!("Mean mark</dt><dd>{mean} of 100<"),
+        "One mark is not known yet, and not among these: to be given by a person are still Lab performance (1) and Viva (1).",
+        &format!("{}<span class=\"note\">−5: handed in late</span>", late.cover_total.unwrap()),
+        &format!("{}<span class=\"note\">−2.5: &lt;b&gt;untidy</span>", untidy.cover_total.unwrap()),
+        "<td class=\"num\">waiting</td>",
+    ] {
+        assert!(class.contains(part), "no {part} in {class}");
     }
     let gradebook = fs::read_to_string(program.path("out/gradebook.csv")).unwrap();
     assert!(gradebook.contains("'-2.5: <b>untidy") && gradebook.contains("mark [100]"), "{gradebook}");
