@@ -250,6 +250,7 @@ fn class_row(record: &Record) -> ClassRow {
         readable: record.readable,
         missing: record.status == Status::Missing,
         late: record.is_late(),
+        held: record.held().next().is_some(),
     }
 }
 

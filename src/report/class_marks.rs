@@ -320,6 +320,7 @@ mod tests {
             readable: true,
             missing: false,
             late: false,
+            held: false,
         }
     }
 

@@ -129,7 +129,7 @@ struct RowView {
     provisional: String,
     findings: String,
     to_review: String,
-    /// `late`, `handed nothing in`, or nothing.
+    /// `late`, `held until a person says that it counts`, `handed nothing in`, or nothing.
     status: &'static str,
     adjustments: AdjustmentsView,
     mark: String,
@@ -358,10 +358,12 @@ fn row(row: &ClassRow) -> RowView {
             0 => String::new(),
             n => n.to_string(),
         },
-        status: match (row.missing, row.late) {
-            (true, _) => "handed nothing in",
-            (false, true) => "late",
-            (false, false) => "",
+        status: match (row.missing, row.late, row.held) {
+            (true, _, _) => "handed nothing in",
+            (_, true, false) => "late",
+            (_, true, true) => "late; held until a person says that it counts",
+            (_, false, true) => "held until a person says that it counts",
+            (_, false, false) => "",
         },
         adjustments: class_marks::adjustments(row),
         mark: class_marks::mark(row),

@@ -92,6 +92,8 @@ pub struct ClassRow {
     pub missing: bool,
     /// It came too late, as the LMS says.
     pub late: bool,
+    /// Whose it is, or whether it counts, is for a person to say before the mark is passed on.
+    pub held: bool,
 }
 
 /// How the class did in one criterion or question. What could not be judged, or waits for a person, counts as it stands.

@@ -313,6 +313,7 @@ fn three_thousand_submissions_make_a_lean_class_page() {
         readable: i % 7 > 0,
         missing: i % 50 == 0,
         late: i % 9 == 0,
+        held: i % 11 == 0,
     });
     let question = &FIXTURE.lab.questions[0];
     let entry = |i: usize| ReviewEntry {

@@ -279,6 +279,7 @@ fn the_list_of_the_course_says_who_is_missing_unknown_and_meant() {
     assert!(ran.page.contains("handed nothing in"));
     let held: Vec<usize> = ran.records.iter().map(|record| record.held().count()).collect();
     assert_eq!(held, [0, 1, 1, 0, 0]);
+    assert_eq!(ran.page.matches(">held until a person says that it counts<").count(), 2, "each in its row");
 }
 
 #[test]
