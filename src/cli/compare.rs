@@ -1,5 +1,5 @@
 use super::outcome::{Failure, write_output};
-use crate::class::{Comparison, Standing, compare, comparison_csv, comparison_rows};
+use crate::class::{Comparison, NewFile, Standing, compare, comparison_csv, comparison_rows};
 use crate::report::compare_page;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -67,8 +67,7 @@ pub fn write_comparison(comparison: &Comparison, new: &Standing, out: &Path) -> 
     let words = in_short(comparison);
     let page = compare_page(title, words.trim(), comparison_rows(comparison))?;
     for (name, bytes) in [("compare.csv", comparison_csv(comparison)?), ("compare.html", page.into_bytes())] {
-        let path = out.join(name);
-        std::fs::write(&path, bytes).map_err(|error| Failure::Write { path, error })?;
+        NewFile::create(out.join(name), out)?.write_all(&bytes)?;
     }
     Ok(())
 }

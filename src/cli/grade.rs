@@ -7,8 +7,7 @@ use crate::class::{
     ClassJob, Intake, Outcome, Place, RunFacts, SAVE_AS, Standing, compare, find_answer_files, grade_class,
     is_own_file,
 };
-use crate::grading::Catalogue;
-use crate::grading::{Contradiction, HandMarksFile};
+use crate::grading::{Catalogue, Contradiction, HandMarksFile};
 use crate::lab::{LabDefinition, Release};
 use crate::report::ReportKit;
 use crate::source::{
