@@ -1,4 +1,5 @@
 use super::run::ClassError;
+use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -22,6 +23,12 @@ impl NewFile {
             .tempfile_in(folder)
             .map_err(|error| ClassError::Write { path: path.clone(), error: plain(error) })?;
         Ok(Self { path, file })
+    }
+
+    /// The same file, for somebody who writes into it bit by bit.
+    pub fn again(&self) -> Result<File, ClassError> {
+        let again = self.file.as_file().try_clone();
+        again.map_err(|error| ClassError::Write { path: self.path.clone(), error })
     }
 
     pub fn write_all(mut self, bytes: &[u8]) -> Result<(), ClassError> {

@@ -24,6 +24,7 @@ use crate::report::{ReportError, ReportKit};
 use crate::source::Finding;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
+use std::fs::File;
 use std::io;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -104,10 +105,14 @@ pub fn grade_class(
     let threads = job.threads.min(GROUP);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK_BYTES).build()?;
 
-    let mut records = RunRecords::create(job, &workplace)?;
     let gradebook_file = NewFile::create(job.out.join("gradebook.csv"), &workplace.running())?;
-    let mut gradebook = Gradebook::new(gradebook_file.file.as_file(), job.lab)?;
-    let mut statistics = Statistics::new(job.lab);
+    let mut sink = Sink {
+        records: RunRecords::create(job, &workplace)?,
+        gradebook: Gradebook::new(gradebook_file.again()?, job.lab)?,
+        statistics: Statistics::new(job.lab),
+        absentees: Absentees::default(),
+        done: 0,
+    };
     let mut names = UniqueNames::default();
     let mut seen = StudentsSeen::default();
     let mut others = pool.install(|| Others::new(job));
@@ -120,9 +125,9 @@ pub fn grade_class(
         run: rests_on(job, &others),
         growing: workplace.running(),
     };
-    let mut absentees = Absentees::default();
     let mut discounted = Vec::new();
-    let mut done = Progress { done: 0, kept: 0 };
+    // Marked, and not written yet: that is done beside marking the next group.
+    let mut at_hand: Option<Batch> = None;
 
     for first in (0..job.intake.files.len()).step_by(GROUP) {
         let group = first..job.intake.files.len().min(first + GROUP);
@@ -141,33 +146,30 @@ pub fn grade_class(
             let report = format!("reports/{}.html", names.claim(&report_stem(&part)));
             slips.push(settle(&desk, part, findings, report, &mut to_mark));
         }
-        let (mut marked, pages): (Vec<Marked>, Vec<Pages>) =
-            pool.install(|| desk.mark_all(to_mark))?.into_iter().unzip();
-        pool.install(|| others.point_out(job, &mut marked));
-        let mut fresh = marked.iter().zip(pages);
-        for slip in slips {
-            let written = match slip.kept {
-                Some(kept) => kept,
-                None => {
-                    let Some((marked, pages)) = fresh.next() else { continue };
-                    let record = Record::of(marked, job.lab);
-                    Written { line: record.to_line()?, record, pages, kept: false }
-                }
-            };
-            records.add(&slip.source, slip.said, &written)?;
-            gradebook.add(&written.record)?;
-            statistics.add(&written.record);
-            absentees.add(&written.record);
-        }
-        records.flush()?;
-        done.done += group.len();
-        done.kept = records.kept();
+        let before = at_hand.take();
+        let (marked, written) = pool.install(|| {
+            rayon::join(
+                || mark(&desk, &mut others, group.len(), slips, to_mark),
+                || before.map_or(Ok(()), |batch| sink.write(batch)),
+            )
+        });
+        written?;
+        at_hand = Some(marked?);
         // Who stops a run at its very end may as well have it whole.
-        if progress(done).is_break() && done.done < job.intake.files.len() {
-            return Ok(Outcome { stopped: true, ..statistics.outcome() });
+        if progress(sink.progress()).is_break() && group.end < job.intake.files.len() {
+            if let Some(batch) = at_hand {
+                sink.write(batch)?;
+            }
+            return Ok(Outcome { stopped: true, ..sink.statistics.outcome() });
         }
     }
+    if let Some(batch) = at_hand {
+        sink.write(batch)?;
+        // Nothing is left to be stopped.
+        let _ = progress(sink.progress());
+    }
 
+    let Sink { mut records, mut gradebook, mut statistics, mut absentees, .. } = sink;
     for record in discounted.into_iter().chain(superseded_records(job)) {
         absentees.add(&record);
         records.add_unmarked(&record)?;
@@ -202,6 +204,62 @@ pub fn grade_class(
     outcome.older_reports = older_reports(job.out, &reports);
     workplace.finish()?;
     Ok(outcome)
+}
+
+/// A group of submissions, marked.
+struct Batch {
+    /// How many answer files.
+    files: usize,
+    slips: Vec<Slip>,
+    /// What was marked in this run, in the order of the slips that are not kept.
+    fresh: Vec<Written>,
+}
+
+fn mark(
+    desk: &Desk<'_>,
+    others: &mut Others,
+    files: usize,
+    slips: Vec<Slip>,
+    to_mark: Vec<Named<'_>>,
+) -> Result<Batch, ClassError> {
+    let job = desk.job;
+    let (mut marked, pages): (Vec<Marked>, Vec<Pages>) = desk.mark_all(to_mark)?.into_iter().unzip();
+    others.point_out(job, &mut marked);
+    let fresh = marked.into_par_iter().zip(pages).map(|(marked, pages)| {
+        let record = Record::of(&marked, job.lab);
+        Ok(Written { line: record.to_line()?, record, pages, kept: false })
+    });
+    Ok(Batch { files, slips, fresh: fresh.collect::<Result<_, ClassError>>()? })
+}
+
+/// What is written and counted, in the order of the answer files.
+struct Sink<'a> {
+    records: RunRecords<'a>,
+    gradebook: Gradebook<File>,
+    statistics: Statistics,
+    absentees: Absentees,
+    /// Answer files.
+    done: usize,
+}
+
+impl Sink<'_> {
+    fn write(&mut self, batch: Batch) -> Result<(), ClassError> {
+        let mut fresh = batch.fresh.into_iter();
+        for slip in batch.slips {
+            let Some(written) = slip.kept.or_else(|| fresh.next()) else { continue };
+            self.records.add(&slip.source, slip.said, &written)?;
+            self.gradebook.add(&written.record)?;
+            self.statistics.add(&written.record);
+            self.absentees.add(&written.record);
+        }
+        self.records.flush()?;
+        self.done += batch.files;
+        Ok(())
+    }
+
+    fn progress(&self) -> Progress {
+        Progress { done: self.done, kept: self.records.kept() }
+    }
 }
 
 /// Who it is from, as far as could be read; the file's name otherwise.
