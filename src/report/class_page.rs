@@ -54,6 +54,8 @@ pub struct ClassPage {
     with_findings: bool,
     waits: bool,
     rows: Vec<RowView>,
+    /// That not all are listed, and where they are; empty when they are.
+    more_rows: String,
     /// How things were handed in.
     intake: Vec<IntakeView>,
 }
@@ -185,7 +187,8 @@ pub fn page(kit: &ReportKit, summary: &ClassSummary) -> ClassPage {
         adjusted_any: summary.rows.iter().any(|row| !row.adjustments.is_empty()),
         with_findings: summary.rows.iter().any(|row| row.findings > 0 || !row.readable),
         waits: summary.rows.iter().any(|row| row.to_review > 0),
-        rows: summary.rows.iter().map(row).collect(),
+        rows: summary.rows.iter().take(MOST_ROWS).map(row).collect(),
+        more_rows: more_rows(summary.rows.len()),
         intake: intake(&summary.intake),
     }
 }
@@ -193,6 +196,18 @@ pub fn page(kit: &ReportKit, summary: &ClassSummary) -> ClassPage {
 fn script_hash() -> String {
     let digest = Sha256::digest(TABLES_SCRIPT.as_bytes());
     format!("sha256-{}", base64::engine::general_purpose::STANDARD.encode(digest))
+}
+
+/// Reports that are listed: with more, a browser takes seconds for each sort, and the page as much memory as marking.
+const MOST_ROWS: usize = 5000;
+
+fn more_rows(all: usize) -> String {
+    match all {
+        0..=MOST_ROWS => String::new(),
+        _ => format!(
+            "The first {MOST_ROWS} of {all} are listed here; all are in gradebook.csv and results.jsonl."
+        ),
+    }
 }
 
 /// Entries of a kind that are listed.

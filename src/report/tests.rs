@@ -290,10 +290,12 @@ fn a_wrong_system_is_drawn_over_the_right_one_and_the_caption_says_where_it_leav
     assert_eq!(alone[1].x.to, point.main().impulse.as_ref().unwrap().horizon_s);
 }
 
-#[test]
-fn three_thousand_submissions_make_a_lean_class_page() {
-    let student = |i: usize| Student { id: format!("EE-{i:04}"), name: HOSTILE[i % HOSTILE.len()].into() };
-    let rows = (0..3_000).map(|i| ClassRow {
+fn student(i: usize) -> Student {
+    Student { id: format!("EE-{i:04}"), name: HOSTILE[i % HOSTILE.len()].into() }
+}
+
+fn class_row(i: usize) -> ClassRow {
+    ClassRow {
         students: vec![student(i)],
         file: format!("answers {i}.yaml"),
         numbers: String::new(),
@@ -303,18 +305,33 @@ fn three_thousand_submissions_make_a_lean_class_page() {
         provisional: Points(50),
         findings: i % 3,
         to_review: i % 4,
-        cover_total: (i % 2 == 0).then_some(Points(4_000)),
-        adjustments: if i % 10 == 0 {
+        cover_total: i.is_multiple_of(2).then_some(Points(4_000)),
+        adjustments: if i.is_multiple_of(10) {
             vec![(Some(Points(-500)), HOSTILE[i % HOSTILE.len()].into())]
         } else {
             Vec::new()
         },
-        mark: (i % 2 == 0).then_some(Points(3_500)),
-        readable: i % 7 > 0,
-        missing: i % 50 == 0,
-        late: i % 9 == 0,
-        held: i % 11 == 0,
-    });
+        mark: i.is_multiple_of(2).then_some(Points(3_500)),
+        readable: !i.is_multiple_of(7),
+        missing: i.is_multiple_of(50),
+        late: i.is_multiple_of(9),
+        held: i.is_multiple_of(11),
+    }
+}
+
+#[test]
+fn of_a_very_large_class_the_first_reports_are_listed_and_the_page_says_so() {
+    for (all, listed) in [(5_000, 5_000), (5_001, 5_000)] {
+        let summary = ClassSummary { rows: (0..all).map(class_row).collect(), ..ClassSummary::default() };
+        let html = FIXTURE.kit.class_page(&summary);
+        assert_eq!(html.matches("class=\"file\"").count(), listed);
+        assert_eq!(html.contains("The first 5000 of 5001 are listed here; all are in"), all > listed);
+    }
+}
+
+#[test]
+fn three_thousand_submissions_make_a_lean_class_page() {
+    let rows = (0..3_000).map(class_row);
     let question = &FIXTURE.lab.questions[0];
     let entry = |i: usize| ReviewEntry {
         student: student(i).name,
