@@ -31,7 +31,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Submissions in memory at a time; results are written in order after each such group.
-const GROUP: usize = 128;
+const GROUP: usize = 64;
 /// Stack of a worker: formulas and prose nest, within limits, on it.
 const STACK_BYTES: usize = 16 << 20;
 
