@@ -49,6 +49,9 @@ pub struct Record {
     /// Sum of the cover sheet; null while a box is.
     #[serde(default, with = "points::optional")]
     pub cover_total: Option<Points>,
+    /// Where that sum is null: what is known of it, whatever waits for a person counted for nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none", with = "points::optional")]
+    pub so_far: Option<Points>,
     /// What changes that sum, and why; lateness first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub adjustments: Vec<AdjustmentRecord>,
@@ -334,6 +337,7 @@ impl Record {
                 })
                 .collect(),
             cover_total: card.cover_total,
+            so_far: card.cover_total.is_none().then_some(card.so_far),
             adjustments: card.adjustments.iter().map(AdjustmentRecord::of).collect(),
             mark: card.mark.map(|earned| MarkRecord { earned, possible: lab.cover.total }),
             answers: card.answers.clone(),
@@ -429,6 +433,7 @@ impl Record {
             observed: lab.observed.iter().map(|row| empty(&row.id, row.points)).collect(),
             cover: lab.cover.rows.iter().map(|row| empty(&row.id, row.points)).collect(),
             cover_total: None,
+            so_far: None,
             adjustments: Vec::new(),
             mark: None,
             answers: BTreeMap::new(),

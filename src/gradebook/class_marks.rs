@@ -20,7 +20,7 @@ pub struct Rules {
 impl Rules {
     /// The mark of a record, not scaled, or why there is none to pass on.
     ///
-    /// It is the sum of the cover sheet with the adjustments. As it stands, an empty box counts for nothing.
+    /// It is the sum of the cover sheet with the adjustments. As it stands, what waits for a person counts for nothing.
     pub fn mark(&self, record: &Record) -> Result<Points, Why> {
         match Why::not_final(record) {
             Some(Why::HandedNothingIn) if self.zero_for_missing => Ok(Points::ZERO),
@@ -28,9 +28,11 @@ impl Rules {
             Some(why) if !self.as_it_stands => Err(why),
             _ if record.mark.is_some() => Ok(record.mark.map_or(Points::ZERO, |mark| mark.earned)),
             _ => {
-                let boxes = || record.cover.iter().filter_map(|one| one.earned).sum();
+                let known = || {
+                    record.so_far.unwrap_or_else(|| record.cover.iter().filter_map(|one| one.earned).sum())
+                };
                 let adjustments: Points = record.adjustments.iter().filter_map(|one| one.points).sum();
-                let sum = record.cover_total.unwrap_or_else(boxes) + adjustments;
+                let sum = record.cover_total.unwrap_or_else(known) + adjustments;
                 Ok(sum.clamp(Points::ZERO, out_of(record).max(Points::ZERO)))
             }
         }
@@ -276,6 +278,17 @@ mod tests {
             "EE-011 75",
         ];
         check("as it stands, of 100", all(), rules, &out);
+    }
+
+    #[test]
+    fn as_it_stands_what_is_known_of_a_box_counts() {
+        let mut half = record("EE-001", "");
+        half.cover.iter_mut().for_each(|one| one.earned = None);
+        (half.cover_total, half.mark, half.so_far) = (None, None, Some(Points(641)));
+        half.adjustments = serde_json::from_str(r#"[{"points": -5, "reason": "late"}]"#).unwrap();
+        assert!(Rules::default().mark(&half).is_err());
+        let rules = Rules { as_it_stands: true, ..Rules::default() };
+        assert_eq!(rules.mark(&half), Ok(Points(141)));
     }
 
     #[test]

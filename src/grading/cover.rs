@@ -65,6 +65,20 @@ fn of(points: Points, (earned, possible): (Points, Points)) -> Option<Points> {
     Some(share(points, &(Rational::from(earned.0) / Rational::from(possible.0))))
 }
 
+/// What the boxes add up to so far: everything that waits for a person counts for nothing.
+pub(super) fn so_far(
+    cover: &Cover,
+    total: Tally,
+    rows: &[ObservedRow],
+    observed: &[(String, Option<Points>)],
+    hand: Option<&HandMarks>,
+) -> Points {
+    let given: Vec<_> =
+        observed.iter().map(|(id, points)| (id.clone(), Some(points.unwrap_or(Points::ZERO)))).collect();
+    let boxes = boxes(cover, &Parts::new(total, false, rows, &given), hand);
+    boxes.iter().filter_map(|(_, _, earned)| *earned).sum()
+}
+
 /// The sum of the boxes, `None` while one is empty.
 pub(super) fn total(boxes: &[(String, Points, Option<Points>)]) -> Option<Points> {
     boxes.iter().map(|(_, _, earned)| *earned).sum()

@@ -116,11 +116,13 @@ pub(super) fn scorecard(
     let observed = cover::observed(&lab.observed, hand);
     let parts = cover::Parts::new(total, unmarked, &lab.observed, &observed);
     let boxes = cover::boxes(&lab.cover, &parts, hand);
+    let so_far = cover::so_far(&lab.cover, total, &lab.observed, &observed, hand);
     let mut card = Scorecard {
         questions,
         total,
         observed,
         cover_total: cover::total(&boxes),
+        so_far,
         cover: boxes,
         ledger,
         answers,
@@ -563,6 +565,8 @@ mod tests {
         assert_eq!(item(&card, "battery.nonlinearity.class").evidence.reason, "Our fault.");
         assert!(card.cover.iter().any(|(id, _, points)| id == "viva" && *points == Some(Points(3000))));
         assert_eq!(card.cover_total, None);
+        // 65 · 1 / 80 of the box that waits for the rest, and the viva.
+        assert_eq!(card.so_far, Points(81 + 3000));
     }
 
     #[test]

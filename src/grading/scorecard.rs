@@ -43,6 +43,8 @@ pub struct Scorecard {
     pub cover: Vec<(String, Points, Option<Points>)>,
     /// Sum of the cover sheet, `None` while a box is empty.
     pub cover_total: Option<Points>,
+    /// The sum of what is known of the boxes, those that wait for a person in part included.
+    pub so_far: Points,
     /// Where each point of `total` was lost, and what was not charged twice.
     pub ledger: Ledger,
     /// The hash of every answer, by field.

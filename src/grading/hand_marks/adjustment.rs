@@ -70,6 +70,7 @@ mod tests {
             observed: Vec::new(),
             cover: Vec::new(),
             cover_total: total,
+            so_far: Points::ZERO,
             ledger: Ledger::default(),
             answers: Default::default(),
             adjustments: Vec::new(),
