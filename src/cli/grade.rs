@@ -87,12 +87,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let leave_out = |path: &Path| others.iter().any(|one| one == path) || is_own_file(&arguments.out, path);
     let intake = find_answer_files(&arguments.paths, &leave_out)?.with_attempts_settled(&lab.sheet);
     warn_of_marks_files(&intake);
-    if let Some(id) = marks.and_then(|marks| marks.late_for_nothing().next()) {
-        let id = sanitize(id);
-        eprintln!(
-            "warning: the marks say that `{id}` is late, and not what that costs: `late: {{points: 5}}` in YAML, `,late,,5` in CSV"
-        );
-    }
+    warn_of_lateness(marks);
     // Read before anything is written into the same folder.
     let before = arguments.compare.as_deref().map(Standing::load).transpose()?;
     if let (Some(before), Some(path)) = (&before, &arguments.compare) {
@@ -138,21 +133,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         eprint!("{}", rendered(of_this.map(|(_, finding)| finding).collect(), source));
     }
     write_output(None, &summary(&outcome, &arguments.out))?;
-    let had =
-        |what: fn(&RunFacts) -> &Option<String>| last.as_ref().is_some_and(|facts| what(facts).is_some());
-    for (forgotten, what) in [
-        (marks.is_none() && had(|facts| &facts.marks), "a marks file: what a person gave is not in this one"),
-        (
-            roster.is_none() && had(|facts| &facts.roster),
-            "a list of the course: who handed nothing in has no row now",
-        ),
-    ] {
-        if forgotten {
-            eprintln!(
-                "warning: the last run into `{}` had {what}",
-                sanitize(&arguments.out.to_string_lossy())
-            );
-        }
+    if let Some(last) = &last {
+        warn_of_what_the_last_run_had(last, &job);
     }
     if let Some(before) = &before {
         let now = Standing::load(&arguments.out)?;
@@ -222,6 +204,30 @@ fn load_marks_file(path: &Path, lab: &LabDefinition) -> Result<(HandMarksFile, S
     }
     eprint!("{rendered}");
     Ok((marks, source))
+}
+
+fn warn_of_lateness(marks: Option<&HandMarksFile>) {
+    if let Some(id) = marks.and_then(|marks| marks.late_for_nothing().next()) {
+        let id = sanitize(id);
+        eprintln!(
+            "warning: the marks say that `{id}` is late, and not what that costs: `late: {{points: 5}}` in YAML, `,late,,5` in CSV"
+        );
+    }
+}
+
+/// A marks file or a list that the last run into the same folder had may only have been forgotten.
+fn warn_of_what_the_last_run_had(last: &RunFacts, job: &ClassJob<'_>) {
+    let out = sanitize(&job.out.to_string_lossy());
+    if job.marks.is_none() && last.marks.is_some() {
+        eprintln!(
+            "warning: the last run into `{out}` had a marks file: what a person gave is not in this one"
+        );
+    }
+    if job.roster.is_none() && last.roster.is_some() {
+        eprintln!(
+            "warning: the last run into `{out}` had a list of the course: who handed nothing in has no row now"
+        );
+    }
 }
 
 /// A marks file that was put beside the answers and forgotten would be somebody's empty answers, and what it gives would not count.

@@ -38,7 +38,8 @@ impl Wanted {
 /// `results.json` as Gradescope reads it from an autograder: a test for each criterion and each row of the observation sheet.
 ///
 /// - `score` on top is the mark and goes before the sum of the tests, for boxes of the cover sheet that a person fills and
-///   adjustments are no tests; `output` on top says what the adjustments are for. It must be a number, and so nothing is written for a mark that waits for a person, unless `rules` say so.
+///   adjustments are no tests; `output` on top says what the adjustments are for. It must be a number, and so nothing is
+///   written for a mark that waits for a person, unless `rules` say so.
 /// - A test has `score`, `max_score`, `name`, `number` (question and criterion), `status`, and in `output` what was found and
 ///   why, as text, which Gradescope escapes; control characters are taken out. A row that is not given yet has no `score`.
 /// - `visibility` is `after_published`: students see nothing before the instructor publishes. Where marks are withheld from

@@ -1,5 +1,6 @@
 use super::{AlikeMarks, HandMarks, HandMarksFile, Override, Said, quoted};
 use crate::lab::Points;
+use crate::source::Span;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -36,9 +37,9 @@ impl HandMarksFile {
     fn take(&mut self, other: Self, found: &mut Vec<Contradiction>) {
         let Self { students, others, groups, files, counts, said } = other;
         let mut clash = |what: String, places: [Option<&Said>; 2]| {
-            if let [Some(first), Some(again)] = places {
-                found.push(Contradiction { what, places: [*first, *again] });
-            }
+            // One is never passed over, even if nobody noted where it stands.
+            let places = places.map(|place| place.copied().unwrap_or(Said::from(Span::default())));
+            found.push(Contradiction { what, places });
         };
         for (who, (id, marks)) in students {
             let HandMarks { cover, observed, items, alike: _, adjustments, late_rule: _, late } = marks;

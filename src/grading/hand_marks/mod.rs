@@ -45,9 +45,10 @@ pub struct HandMarks {
 }
 
 impl HandMarks {
-    /// What a person decided for a criterion worth `most`: for this student's answer, else for answers like it. One for this student
-    /// that was made for another answer is only looked at when none for the group names the answer. Points out of range are not given. Of several decisions it is the last that was made for the answer, else the last. `answer` works out
-    /// the hash of the answer.
+    /// What a person decided for a criterion worth `most`: for this student's answer, else for answers like it. One for this
+    /// student that was made for another answer is only looked at when none for the group names the answer. Points out of
+    /// range are not given. Of several decisions it is the last that was made for the answer, else the last. `answer` works
+    /// out the hash of the answer.
     pub(super) fn given(
         &self,
         criterion: &str,
@@ -183,10 +184,11 @@ impl HandMarksFile {
 
     /// The name of the file that counts for a student, where a person has said so.
     pub fn counts_for(&self, id: &str) -> Option<&str> {
-        self.counts.get(&folded_id(id)).map(|(file, _)| file.as_str())
+        self.counts.get(&identity(id)).map(|(file, _)| file.as_str())
     }
 
-    /// A warning, with the marks file it is in, for each decision about a group that is not among `groups`, the (criterion, group) of a class's answers.
+    /// A warning, with the marks file it is in, for each decision about a group that is not among `groups`, the (criterion,
+    /// group) of a class's answers.
     pub fn decisions_without_answers(&self, groups: &BTreeSet<(String, String)>) -> Vec<(usize, Finding)> {
         let nobody = self.groups.iter().filter(|(group, _)| !groups.contains(*group));
         let finding = |((criterion, group), said): (&(String, String), &Said)| {

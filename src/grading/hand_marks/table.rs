@@ -2,7 +2,7 @@ use super::allowed::{Allowed, Findings, apart};
 use super::{
     Adjustment, AlikeMarks, HandMarks, HandMarksFile, LateCost, LateRule, Override, identity, quoted,
 };
-use crate::lab::{Points, folded_id};
+use crate::lab::Points;
 use crate::source::{Finding, SourceText, Span, StrayQuote, sanitize, separator, stray_quote};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -145,7 +145,7 @@ impl Reader<'_> {
     fn is_twice(&mut self, row: &Row) -> bool {
         let Row { student, item, group, answer, .. } = row;
         let of_file = if item == "is" { answer.as_str() } else { "" };
-        let key = (folded_id(student), item.clone(), format!("{group}{of_file}"));
+        let key = (identity(student), item.clone(), format!("{group}{of_file}"));
         let answers: BTreeSet<String> = match self.allowed.items.contains_key(item.as_str()) {
             true => apart(answer).collect(),
             false => BTreeSet::new(),
@@ -208,7 +208,7 @@ impl Reader<'_> {
             }
             ("counts", false, _) => {
                 if !answer.is_empty() {
-                    file.counts.insert(folded_id(student), (answer.clone(), (*span).into()));
+                    file.counts.insert(identity(student), (answer.clone(), (*span).into()));
                 }
             }
             _ => self.of_student(row, file),

@@ -2,7 +2,7 @@ use super::allowed::{Allowed, Findings};
 use super::{
     Adjustment, AlikeMarks, HandMarks, HandMarksFile, LateCost, LateRule, Override, identity, quoted,
 };
-use crate::lab::{Points, folded_id};
+use crate::lab::Points;
 use crate::source::{self, Finding, Node, SourceText, Span, Value};
 use std::sync::Arc;
 
@@ -220,7 +220,7 @@ impl Reader<'_> {
                 ("counts", _) => match &value.value {
                     Value::Null => {}
                     Value::Scalar(name) => {
-                        file.counts.insert(folded_id(id), (name.trim().to_owned(), value.span.into()));
+                        file.counts.insert(identity(id), (name.trim().to_owned(), value.span.into()));
                     }
                     _ => {
                         let message = "Which file counts is said by its name.".to_owned();
