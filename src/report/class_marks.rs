@@ -152,7 +152,7 @@ fn marks_waiting(summary: &ClassSummary) -> u64 {
 
 /// What the marks are, and what they wait for: sentences.
 ///
-/// `No mark is known yet: Viva waits for a person (36).`
+/// `One mark is not known yet, and not among these: to be given by a person are still Viva (1).`
 pub fn words(summary: &ClassSummary) -> String {
     let waiting = marks_waiting(summary);
     let boxes = summary.boxes_waiting.iter().map(|(title, n)| format!("{} ({n})", sanitize(title)));
